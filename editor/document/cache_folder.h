@@ -10,8 +10,8 @@ namespace lamplighter {
 // there is neither.
 std::filesystem::path configFolder();
 // What can be computed again, in $XDG_CACHE_HOME/lamplighter, or ~/.cache for the first part:
-// precomputed transfer and texel layouts, and thumbnails of the asset browser. Empty where there is
-// neither.
+// precomputed transfer, texel layouts and topologies of meshes, and thumbnails of the asset browser.
+// Empty where there is neither.
 std::filesystem::path transferFolder();
 std::filesystem::path thumbnailFolder();
 

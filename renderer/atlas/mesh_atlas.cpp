@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 
+#include "renderer/base/byte_stream.h"
 #include "renderer/scene/scene.h"
 
 namespace lamplighter {
@@ -31,21 +31,6 @@ struct StoredChart {
   uint32_t triangles;
 };
 static_assert(std::is_trivially_copyable_v<StoredChart>);
-
-template <typename T>
-void append(std::vector<uint8_t>& bytes, const T* values, size_t count) {
-  const auto* first = reinterpret_cast<const uint8_t*>(values);
-  bytes.insert(bytes.end(), first, first + count * sizeof(T));
-}
-
-// Takes values from the front of the bytes. Returns false if there are too few.
-template <typename T>
-bool take(std::span<const uint8_t>& bytes, T* values, size_t count) {
-  if (count > bytes.size() / sizeof(T)) return false;
-  if (count > 0) std::memcpy(values, bytes.data(), count * sizeof(T));
-  bytes = bytes.subspan(count * sizeof(T));
-  return true;
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <type_traits>
 
 #include <unistd.h>
@@ -98,6 +99,32 @@ bool ContentCache::save(const ContentKey& key, std::span<const uint8_t> result) 
   if (isWritten && !error) return true;
   fs::remove(temporary, error);
   return false;
+}
+
+void ContentCache::keepWithin(uintmax_t bytes) const {
+  struct File {
+    fs::file_time_type written;
+    fs::path path;
+    uintmax_t size;
+  };
+  std::vector<File> files;
+  uintmax_t sum = 0;
+  std::error_code error;
+  const std::string extension = std::string(".") + kind_.extension;
+  for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
+    std::error_code gone;  // another process may delete files at the same time
+    const File file{at->last_write_time(gone), at->path(), at->file_size(gone)};
+    if (gone || file.path.extension() != extension) continue;
+    sum += file.size;
+    files.push_back(file);
+  }
+  std::sort(files.begin(), files.end(), [](const File& a, const File& b) {
+    return std::tie(a.written, a.path) < std::tie(b.written, b.path);
+  });
+  for (size_t i = 0; i < files.size() && sum > bytes; ++i) {
+    fs::remove(files[i].path, error);
+    sum -= files[i].size;
+  }
 }
 
 }  // namespace lamplighter

@@ -63,6 +63,9 @@ class ContentCache {
   // succeeded. A failure (disk full, no permission) is no error: the result is computed again next
   // time.
   bool save(const ContentKey& key, std::span<const uint8_t> result) const;
+  // Deletes files of this kind, those that were written first, until the rest takes at most so many
+  // bytes.
+  void keepWithin(uintmax_t bytes) const;
 
   std::filesystem::path fileOf(const ContentKey& key) const;
 

@@ -1,15 +1,11 @@
 #include "renderer/patches/topology.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
-#include <mutex>
-#include <numeric>
-#include <span>
-#include <tuple>
+#include <utility>
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-
+#include "renderer/patches/triangle_order.h"
 #include "renderer/raycast/ray_caster.h"
 
 namespace lamplighter {
@@ -17,163 +13,60 @@ namespace {
 
 constexpr float kSameDirection = 0.99995f;  // cos 0.57°
 constexpr float kRoughDirection = 0.9976f;  // cos 4°
-constexpr float kRough = 0.0025f;           // m, on both sides of the plane
-constexpr float kRoughShare = 0.0005f;      // and as a fraction of the object's size
-constexpr float kLargeRough = 1.0f;         // m²: no bent surface has so large a part near a plane
+constexpr float kRoughShare = 0.0005f;      // of the object's size: largest height of bumps
 constexpr int kMostFits = 12;               // iterations of fitting a plane
 constexpr float kLargeShare = 0.02f;        // of the object's size squared
-constexpr float kLarge = 0.25f;             // m²
-constexpr size_t kClusterTriangles = 1024;  // larger clusters are halved
-constexpr float kSmallestCluster = 2.0f;    // if they are larger than this [m]
 
-constexpr size_t kNoCluster = static_cast<size_t>(-1);
-
-struct MeshTraits : OpenMesh::DefaultTraits {
-  VertexAttributes(0);
-  HalfedgeAttributes(0);
-  EdgeAttributes(0);
-  FaceAttributes(0);
-};
-using TriMesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
-
-// The object's triangles in object space: its own vertices, scaled but not rotated or moved. In a
-// mirrored object they show their back faces here.
-class Shape {
- public:
-  Shape(const RenderScene& s, const RenderObject& o) : count_(o.triangleCount()) {
-    const ShapeKey key = shapeOf(o);
-    positions_.reserve(o.vertexCount);
-    for (uint32_t i = 0; i < o.vertexCount; ++i) {
-      positions_.push_back(s.localPositions[o.firstVertex + i] * key.scale);
-      bounds_.add(positions_.back());
-    }
-    corners_.reserve(size_t{3} * count_);
-    for (uint32_t i = 0; i < o.indexCount; ++i)
-      corners_.push_back(s.indices[o.firstIndex + i] - o.firstVertex);
-    normals_.resize(count_, vec3(0.0f));
-    areas_.resize(count_, 0.0f);
-    for (uint32_t t = 0; t < count_; ++t) {
-      const vec3 &a = at(t, 0), &b = at(t, 1), &c = at(t, 2);
-      const vec3 cross = glm::cross(b - a, c - a);
-      const float doubleArea = glm::length(cross);
-      areas_[t] = 0.5f * doubleArea;
-      if (doubleArea > 0.0f) normals_[t] = cross / doubleArea;
-    }
-    join();
-  }
-
-  uint32_t triangles() const { return count_; }
-  const Bounds& bounds() const { return bounds_; }
-  float area(uint32_t t) const { return areas_[t]; }
-  const vec3& normal(uint32_t t) const { return normals_[t]; }  // zero: the triangle has no area
-  uint32_t vertex(uint32_t t, size_t corner) const { return corners_[size_t{3} * t + corner]; }
-  const vec3& at(uint32_t t, size_t corner) const { return positions_[vertex(t, corner)]; }
-  const vec3& position(uint32_t vertex) const { return positions_[vertex]; }
-
-  // The triangle across each edge; kNone at a border.
-  std::array<int, 3> neighbours(uint32_t t) const {
-    std::array<int, 3> out;
-    size_t side = 0;
-    for (const auto h : mesh_.fh_range(mesh_.face_handle(t)))
-      out[side++] = mesh_.opposite_face_handle(h).idx();
-    return out;
-  }
-  // An edge: its two welded vertices, and a vertex of the triangle at each.
-  struct Side {
-    int from, to;
-    uint32_t fromVertex, toVertex;
-  };
-  std::array<Side, 3> sides(uint32_t t) const {
-    std::array<Side, 3> out;
-    for (size_t i = 0; i < 3; ++i) {
-      const size_t next = (i + 1) % 3;
-      out[i] = {welded_[vertex(t, i)], welded_[vertex(t, next)], vertex(t, i), vertex(t, next)};
-    }
-    return out;
-  }
-
- private:
-  // Welds vertices with equal positions, because meshes are split where normals or textures are
-  // discontinuous. Triangles that OpenMesh cannot connect, because three meet at an edge, stay
-  // separate.
-  void join() {
-    // Faces that cannot be connected are expected; suppress OpenMesh's messages on standard error.
-    static std::once_flag isQuiet;
-    std::call_once(isQuiet, [] { omerr().disable(); });
-    std::map<std::tuple<float, float, float>, int> known;
-    welded_.resize(positions_.size());
-    for (size_t i = 0; i < positions_.size(); ++i) {
-      const vec3& p = positions_[i];
-      const auto [it, isNew] = known.try_emplace({p.x, p.y, p.z}, static_cast<int>(known.size()));
-      if (isNew) mesh_.add_vertex({p.x, p.y, p.z});
-      welded_[i] = it->second;
-    }
-    for (uint32_t t = 0; t < count_; ++t) {
-      std::array<OpenMesh::VertexHandle, 3> v;
-      for (size_t c = 0; c < 3; ++c)
-        v[c] = mesh_.vertex_handle(static_cast<uint32_t>(welded_[vertex(t, c)]));
-      const bool degenerate = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
-      if (!degenerate && canJoin(v) && mesh_.add_face(v[0], v[1], v[2]).is_valid()) continue;
-      for (size_t c = 0; c < 3; ++c) {
-        const vec3& p = at(t, c);
-        v[c] = mesh_.add_vertex({p.x, p.y, p.z});
-      }
-      mesh_.add_face(v[0], v[1], v[2]);
-    }
-  }
-
-  // Whether all three edges are free.
-  bool canJoin(const std::array<OpenMesh::VertexHandle, 3>& v) const {
-    for (size_t c = 0; c < 3; ++c) {
-      if (!mesh_.is_boundary(v[c])) return false;
-      const auto h = mesh_.find_halfedge(v[c], v[(c + 1) % 3]);
-      if (h.is_valid() && !mesh_.is_boundary(h)) return false;
-    }
-    return true;
-  }
-
-  uint32_t count_;
-  std::vector<vec3> positions_;
-  std::vector<uint32_t> corners_;
-  std::vector<int> welded_;  // by vertex
-  std::vector<vec3> normals_;
-  std::vector<float> areas_;
-  Bounds bounds_;
-  TriMesh mesh_;  // face t is triangle t
-};
+// Triangles with an area for which `takes` holds, from the largest to the smallest.
+template <typename Takes>
+std::vector<uint32_t> bySize(const MeshShape& shape, const Takes& takes) {
+  std::vector<uint64_t> keys;
+  for (uint32_t t = 0; t < shape.triangles(); ++t)
+    if (shape.area(t) > 0.0f && takes(t))
+      keys.push_back(uint64_t{~std::bit_cast<uint32_t>(shape.area(t))} << 32 | t);
+  std::sort(keys.begin(), keys.end());
+  std::vector<uint32_t> order;
+  order.reserve(keys.size());
+  for (const uint64_t key : keys) order.push_back(static_cast<uint32_t>(key));
+  return order;
+}
 
 // The vertices of the border in order if it is a single loop; otherwise empty.
-std::vector<uint32_t> borderLoop(const Shape& shape, const std::vector<uint32_t>& triangles) {
-  std::map<std::pair<int, int>, int> uses;
+std::vector<uint32_t> borderLoop(const MeshShape& shape, const std::vector<uint32_t>& triangles) {
+  std::vector<MeshShape::Side> sides, border;
   for (const uint32_t t : triangles)
-    for (const Shape::Side& s : shape.sides(t)) ++uses[std::minmax(s.from, s.to)];
-  struct Step {
-    int to;
-    uint32_t vertex;
-  };
-  std::map<int, Step> next;
-  for (const uint32_t t : triangles) {
-    for (const Shape::Side& s : shape.sides(t)) {
-      if (uses[std::minmax(s.from, s.to)] != 1) continue;
-      if (!next.try_emplace(s.from, Step{s.to, s.fromVertex}).second) return {};  // two loops meet
-    }
+    for (const MeshShape::Side& s : shape.sides(t)) sides.push_back(s);
+  const auto ends = [](const MeshShape::Side& s) { return std::minmax(s.from, s.to); };
+  std::sort(sides.begin(), sides.end(),
+            [&](const MeshShape::Side& a, const MeshShape::Side& b) { return ends(a) < ends(b); });
+  for (size_t i = 0, next; i < sides.size(); i = next) {
+    for (next = i + 1; next < sides.size() && ends(sides[next]) == ends(sides[i]);) ++next;
+    if (next == i + 1) border.push_back(sides[i]);
   }
+  const auto isBefore = [](const MeshShape::Side& s, int from) { return s.from < from; };
+  std::sort(border.begin(), border.end(), [&](const MeshShape::Side& a, const MeshShape::Side& b) {
+    return isBefore(a, b.from);
+  });
+  const auto meet = [](const MeshShape::Side& a, const MeshShape::Side& b) {
+    return a.from == b.from;
+  };
+  if (border.empty() || std::adjacent_find(border.begin(), border.end(), meet) != border.end())
+    return {};  // two loops meet
   std::vector<uint32_t> loop;
-  if (next.empty()) return loop;
-  const int start = next.begin()->first;
+  const int start = border.front().from;
   int v = start;
   do {
-    const auto it = next.find(v);
-    if (it == next.end() || loop.size() >= next.size()) return {};
-    loop.push_back(it->second.vertex);
-    v = it->second.to;
+    const auto it = std::lower_bound(border.begin(), border.end(), v, isBefore);
+    if (it == border.end() || it->from != v || loop.size() >= border.size()) return {};
+    loop.push_back(it->fromVertex);
+    v = it->to;
   } while (v != start);
-  if (loop.size() != next.size()) loop.clear();  // there are holes
+  if (loop.size() != border.size()) loop.clear();  // there are holes
   return loop;
 }
 
 // The corners of the border if it is convex.
-std::vector<uint32_t> convexOutline(const Shape& shape, const ChartTopology& chart) {
+std::vector<uint32_t> convexOutline(const MeshShape& shape, const ChartTopology& chart) {
   const std::vector<uint32_t> loop = borderLoop(shape, chart.triangles);
   const vec3& normal = shape.normal(chart.seed);
   std::vector<uint32_t> outline;
@@ -192,7 +85,7 @@ std::vector<uint32_t> convexOutline(const Shape& shape, const ChartTopology& cha
 
 // Longest edge of the outline, so that a rectangle gets one of its sides; without an outline, of
 // all triangles.
-std::array<uint32_t, 2> longestEdge(const Shape& shape, const ChartTopology& chart) {
+std::array<uint32_t, 2> longestEdge(const MeshShape& shape, const ChartTopology& chart) {
   std::array<uint32_t, 2> best{};
   float longest = 0.0f;
   const auto offer = [&](uint32_t a, uint32_t b) {
@@ -205,24 +98,21 @@ std::array<uint32_t, 2> longestEdge(const Shape& shape, const ChartTopology& cha
     offer(chart.outline[i], chart.outline[(i + 1) % chart.outline.size()]);
   if (!chart.outline.empty()) return best;
   for (const uint32_t t : chart.triangles)
-    for (const Shape::Side& s : shape.sides(t)) offer(s.fromVertex, s.toVertex);
+    for (const MeshShape::Side& s : shape.sides(t)) offer(s.fromVertex, s.toVertex);
   return best;
 }
 
 // Finds charts with an area of at least `least` [m²], or at least a fraction of the object's size
 // squared.
-void findCharts(const Shape& shape, float least, std::vector<ChartTopology>& charts,
+void findCharts(const MeshShape& shape, float least, std::vector<ChartTopology>& charts,
                 std::vector<bool>& taken) {
   // Charts grow from the largest triangles, whose planes are the most precise.
-  std::vector<uint32_t> order(shape.triangles());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](uint32_t a, uint32_t b) { return shape.area(a) > shape.area(b); });
+  const std::vector<uint32_t> order = bySize(shape, [](uint32_t) { return true; });
   const float size = glm::length(shape.bounds().extent());
   const float tolerance = rayEpsilon(shape.bounds().max) + rayEpsilon(shape.bounds().min);
   std::vector<bool> tried(shape.triangles(), false);
   for (const uint32_t seed : order) {
-    if (tried[seed] || shape.area(seed) <= 0.0f) continue;
+    if (tried[seed]) continue;
     const vec3 &origin = shape.at(seed, 0), &normal = shape.normal(seed);
     const auto liesInPlane = [&](uint32_t t) {
       if (shape.area(t) > 0.0f && glm::dot(shape.normal(t), normal) < kSameDirection) return false;
@@ -255,18 +145,43 @@ void findCharts(const Shape& shape, float least, std::vector<ChartTopology>& cha
   }
 }
 
+// Whether a triangle is in a connected part of the remaining ones that is as large as a rough
+// chart.
+std::vector<bool> inLargeParts(const MeshShape& shape, float least,
+                               const std::vector<bool>& taken) {
+  std::vector<bool> isLarge(shape.triangles(), false), seen = taken;
+  std::vector<uint32_t> part;
+  for (uint32_t first = 0; first < shape.triangles(); ++first) {
+    if (seen[first]) continue;
+    seen[first] = true;
+    part.assign(1, first);
+    double area = 0.0;
+    for (size_t i = 0; i < part.size(); ++i) {
+      area += static_cast<double>(shape.area(part[i]));
+      for (const int n : shape.neighbours(part[i])) {
+        if (n < 0 || seen[static_cast<size_t>(n)]) continue;
+        seen[static_cast<size_t>(n)] = true;
+        part.push_back(static_cast<uint32_t>(n));
+      }
+    }
+    // With a margin for the rounding errors of sums.
+    if (area < 0.999 * static_cast<double>(least)) continue;
+    for (const uint32_t t : part) isLarge[t] = true;
+  }
+  return isLarge;
+}
+
 // Finds rough charts in the remaining triangles: parts that are planar except for small bumps. One
 // triangle does not define the plane precisely. So the plane is fitted repeatedly to all triangles
 // near it, until no more are added.
-void findRoughCharts(const Shape& shape, std::vector<ChartTopology>& charts,
-                     std::vector<bool>& taken) {
-  std::vector<uint32_t> order;
-  for (uint32_t t = 0; t < shape.triangles(); ++t)
-    if (!taken[t] && shape.area(t) > 0.0f) order.push_back(t);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](uint32_t a, uint32_t b) { return shape.area(a) > shape.area(b); });
+void findRoughCharts(const MeshShape& shape, const TopologyLimits& limits,
+                     std::vector<ChartTopology>& charts, std::vector<bool>& taken) {
+  const std::vector<bool> mayBe = inLargeParts(shape, limits.largeRough, taken);
+  const std::vector<uint32_t> order =
+      bySize(shape, [&](uint32_t t) { return !taken[t] && mayBe[t]; });
+  if (order.empty()) return;
   const float size = glm::length(shape.bounds().extent());
-  const float tolerance = std::min(kRough, kRoughShare * size);
+  const float tolerance = std::min(limits.rough, kRoughShare * size);
   std::vector<uint32_t> found(shape.triangles(), 0);  // index of the search that found the triangle
   std::vector<bool> tried = taken;
   uint32_t search = 0;
@@ -313,7 +228,7 @@ void findRoughCharts(const Shape& shape, std::vector<ChartTopology>& charts,
       area += shape.area(t);
     }
     tried[seed] = true;
-    if (area < kLargeRough) continue;
+    if (area < limits.largeRough) continue;
     ChartTopology& chart = charts.emplace_back();
     chart.seed = seed;
     chart.isRough = true;
@@ -322,56 +237,6 @@ void findRoughCharts(const Shape& shape, std::vector<ChartTopology>& charts,
     for (const uint32_t t : chart.triangles) taken[t] = true;
     chart.longestEdge = longestEdge(shape, chart);
   }
-}
-
-// Sorts the triangles into the order of a tree that splits at the median of their centres along the
-// longest axis. Makes clusters of its first levels.
-void sortLoose(const Shape& shape, MeshTopology& out, uint32_t first, uint32_t count,
-               size_t cluster) {
-  if (count <= kGroupTriangles) return;
-  const std::span<uint32_t> triangles(&out.loose[first], count);
-  Bounds box;
-  for (const uint32_t t : triangles)
-    for (size_t c = 0; c < 3; ++c) box.add(shape.at(t, c));
-  const vec3 size = box.extent();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto middle = [&](uint32_t t) {
-    return shape.at(t, 0)[axis] + shape.at(t, 1)[axis] + shape.at(t, 2)[axis];
-  };
-  std::stable_sort(triangles.begin(), triangles.end(),
-                   [&](uint32_t a, uint32_t b) { return middle(a) < middle(b); });
-  // The left half consists of whole groups, so that no group is split.
-  const uint32_t half = (count / 2 + kGroupTriangles - 1) / kGroupTriangles * kGroupTriangles;
-  const bool divides =
-      cluster != kNoCluster && count > kClusterTriangles && size[axis] > kSmallestCluster;
-  const size_t children = divides ? out.clusters.size() : kNoCluster;
-  if (divides) {
-    out.clusters[cluster].firstChild = static_cast<int>(children);
-    out.clusters.push_back({first, half, kNone});
-    out.clusters.push_back({first + half, count - half, kNone});
-  }
-  sortLoose(shape, out, first, half, children);
-  sortLoose(shape, out, first + half, count - half, divides ? children + 1 : kNoCluster);
-}
-
-// Makes the boxes for occluder searches: triangles of charts one by one, loose triangles in groups.
-void findOccluders(const Shape& shape, MeshTopology& out) {
-  std::vector<Bounds> boxes;
-  const auto add = [&](uint32_t t) {
-    for (size_t c = 0; c < 3; ++c) boxes.back().add(shape.at(t, c));
-  };
-  for (const ChartTopology& chart : out.charts) {
-    for (const uint32_t t : chart.triangles) {
-      out.flat.push_back(t);
-      boxes.emplace_back();
-      add(t);
-    }
-  }
-  for (size_t i = 0; i < out.loose.size(); ++i) {
-    if (i % kGroupTriangles == 0) boxes.emplace_back();
-    add(out.loose[i]);
-  }
-  out.occluders = BoundsTree(boxes);
 }
 
 }  // namespace
@@ -388,23 +253,21 @@ ShapeKey shapeOf(const RenderObject& object) {
   return key;
 }
 
-MeshTopology findTopology(const RenderScene& scene, uint32_t object) {
+MeshTopology findTopology(const RenderScene& scene, uint32_t object, const TopologyLimits& limits) {
   const RenderObject& o = scene.objects[object];
-  const Shape shape(scene, o);
   MeshTopology out;
   out.shape = shapeOf(o);
+  MeshShape shape(scene, o, out.shape.scale);
   std::vector<bool> taken(o.triangleCount(), false);
-  if (o.kind != MeshKind::complex)
-    findCharts(shape, o.kind == MeshKind::simple ? 0.0f : kLarge, out.charts, taken);
-  if (o.kind == MeshKind::automatic) findRoughCharts(shape, out.charts, taken);
+  if (o.kind != MeshKind::complex) {
+    shape.connect();
+    findCharts(shape, o.kind == MeshKind::simple ? 0.0f : limits.large, out.charts, taken);
+  }
+  if (o.kind == MeshKind::automatic) findRoughCharts(shape, limits, out.charts, taken);
   for (uint32_t t = 0; t < o.triangleCount(); ++t)
     if (!taken[t]) out.loose.push_back(t);
-  if (!out.loose.empty()) {
-    const auto count = static_cast<uint32_t>(out.loose.size());
-    out.clusters.push_back({0, count, kNone});
-    sortLoose(shape, out, 0, count, 0);
-  }
-  findOccluders(shape, out);
+  sortLoose(shape, limits.smallestCluster, out);
+  addOccluders(shape, out);
   return out;
 }
 

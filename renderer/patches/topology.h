@@ -57,10 +57,21 @@ struct MeshTopology {
 // Sine of 4°, the largest angle between a triangle and the plane of its rough chart.
 inline constexpr float kRoughSine = 0.07f;
 
-// Deterministic. A planar part becomes a chart if its area is at least a quarter of a square metre,
-// or a fiftieth of the object's size squared. Smaller or curved parts are loose. A part of at least
-// one square metre that is planar within a few millimetres and degrees becomes a rough chart. In a
-// simple mesh all planar parts are charts; in a complex mesh there are none.
-MeshTopology findTopology(const RenderScene& scene, uint32_t object);
+// Lengths [m] and areas [m²] that divide charts from loose triangles.
+struct TopologyLimits {
+  float large = 0.25f;           // smallest area of a chart
+  float rough = 0.0025f;         // largest height of bumps, on both sides of the plane
+  float largeRough = 1.0f;       // smallest area of a rough chart: no bent surface has so large a
+                                 // part near a plane
+  float smallestCluster = 2.0f;  // smaller clusters are not halved
+  bool operator==(const TopologyLimits&) const = default;
+};
+
+// Deterministic. A planar part becomes a chart if it is large, or at least a fiftieth of the
+// object's size squared. Smaller or curved parts are loose. A large part that is planar within a
+// few millimetres and degrees becomes a rough chart. In a simple mesh all planar parts are charts;
+// in a complex mesh there are none.
+MeshTopology findTopology(const RenderScene& scene, uint32_t object,
+                          const TopologyLimits& limits = {});
 
 }  // namespace lamplighter

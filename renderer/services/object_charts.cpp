@@ -1,5 +1,6 @@
 #include "renderer/services/object_charts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
@@ -100,6 +101,8 @@ std::span<const ObjectAtlas> ObjectCharts::find(const RenderScene& scene, float 
     used[m.key] = std::move(m.atlas);
     computed_ += m.isComputed;
   }
+  if (std::any_of(missing.begin(), missing.end(), [](const Missing& m) { return m.isComputed; }))
+    files_.keepWithin(kMostBytes);
   known_ = std::move(used);
   for (size_t i = 0; i < keys_.size(); ++i)
     objects_[i].atlas = keys_[i] ? known_.at(*keys_[i]) : nullptr;

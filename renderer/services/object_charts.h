@@ -32,6 +32,9 @@ struct ObjectAtlas {
 // They are kept in memory while an object uses them, and on disk.
 class ObjectCharts {
  public:
+  // Of all files; the oldest are deleted first.
+  static constexpr uintmax_t kMostBytes = uintmax_t{256} << 20;
+
   // An empty path: nothing is kept on disk.
   explicit ObjectCharts(std::filesystem::path folder) : files_(std::move(folder), {"atl", 1}) {}
 

@@ -42,13 +42,21 @@ void VisibilityDatabase::addWaiting(int object, const Caster& before, bool could
   }
 }
 
+// Finds the topologies that are missing or of another shape.
+void VisibilityDatabase::findTopologies(const RenderScene& scene, std::span<const uint32_t> objects,
+                                        bool areMoving) {
+  std::vector<uint32_t> missing;
+  for (const uint32_t object : objects) {
+    const auto& topology = topologies_[object];
+    if (!topology || !(topology->shape == shapeOf(scene.objects[object])))
+      missing.push_back(object);
+  }
+  const auto found = meshes_.find(scene, missing, areMoving);
+  for (size_t i = 0; i < missing.size(); ++i) topologies_[missing[i]] = found[i];
+}
+
 void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) {
-  MeshTopology& topology = topologies_[object];
-  const RenderObject& o = scene.objects[object];
-  if (topology.charts.empty() && topology.clusters.empty() ? o.triangleCount() > 0
-                                                           : !(topology.shape == shapeOf(o)))
-    topology = findTopology(scene, object);
-  patches_[object] = placePatches(scene, object, topology);
+  patches_[object] = placePatches(scene, object, *topologies_[object]);
   const size_t patches = patches_[object].patches.size();
   rows_[object].assign(patches, Row());
   divided_[object].assign(patches, 0);
@@ -82,6 +90,8 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
     for (Waiting& w : list)
       if (w.object != kNone) w.object = becomes[static_cast<size_t>(w.object)];
   }
+  // Those of removed objects may be found again, as after a change of materials.
+  const auto topologiesBefore = topologies_;
   reorder(topologies_);
   reorder(patches_);
   reorder(rows_);
@@ -108,9 +118,10 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
     moves.push_back({Bounds(), scene.objects[i].bounds});
   }
   fillWithoutEntries(scene);
+  findTopologies(scene, fresh, false);
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) { placeObject(scene, fresh[i]); });
   tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(scene.objects.size()),
-                    [&](uint32_t i) { occluders_.place(scene, i, topologies_[i], patches_[i]); });
+                    [&](uint32_t i) { occluders_.place(scene, i, *topologies_[i], patches_[i]); });
   // If all objects are new, none are treated as movers.
   setMovers(fresh.size() < scene.objects.size() ? fresh : std::vector<uint32_t>());
   forgetOthers();
@@ -140,12 +151,13 @@ void VisibilityDatabase::takeMoved(const RenderScene& scene, const RenderSceneCh
                occluders_.mayHide(i));
     cameFrom_[i] = kNone;
   }
+  findTopologies(scene, moved, true);
   tbb::parallel_for(size_t{0}, moved.size(), [&](size_t i) {
     const uint32_t object = moved[i];
     tbb::parallel_invoke([&] { identities_[object] = identify(scene, object); },
                          [&] {
                            placeObject(scene, object);
-                           occluders_.place(scene, object, topologies_[object], patches_[object]);
+                           occluders_.place(scene, object, *topologies_[object], patches_[object]);
                          });
   });
   std::vector<MoverPlace> now;

@@ -10,11 +10,15 @@
 // look into shadow maps, so the picture is the same.
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "renderer/patches/mesh_topologies.h"
 #include "renderer/visibility/light_clusters.h"
 #include "renderer/visibility/movers/mover_path.h"
 #include "renderer/visibility/object_identity.h"
@@ -34,6 +38,10 @@ struct VisibilityCounts {
 
 class VisibilityDatabase {
  public:
+  // cacheFolder: where topologies are kept between runs (MeshTopologies).
+  explicit VisibilityDatabase(std::filesystem::path cacheFolder = {})
+      : meshes_(std::move(cacheFolder)) {}
+
   // Registers changes of the scene: moved, added, removed, hidden and rescaled objects, and
   // materials. Entries of new or moved objects are partial in columns that wait.
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
@@ -181,6 +189,7 @@ class VisibilityDatabase {
   void takeMoved(const RenderScene& scene, const RenderSceneChanges& changes,
                  std::vector<Move>& moves);
   void setMovers(std::span<const uint32_t> objects);
+  void findTopologies(const RenderScene& scene, std::span<const uint32_t> objects, bool areMoving);
   void placeObject(const RenderScene& scene, uint32_t object);
   void addWaiting(int object, const Caster& before, bool couldHide);
   void forgetOthers();
@@ -197,8 +206,9 @@ class VisibilityDatabase {
   bool takeMemoryLimit(size_t stride);
   void forgetBelow();
 
+  MeshTopologies meshes_;
   // By object.
-  std::vector<MeshTopology> topologies_;
+  std::vector<std::shared_ptr<const MeshTopology>> topologies_;
   std::vector<ObjectIdentity> identities_;
   std::vector<ObjectPatches> patches_;
   std::vector<int> cameFrom_;

@@ -27,7 +27,7 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
   }
   RenderSceneChanges changes = in.changes;
   if (!visibility_) {
-    visibility_ = std::make_unique<VisibilityDatabase>();
+    visibility_ = std::make_unique<VisibilityDatabase>(in.services.cacheFolder());
     demand_ = {};
     demandIsCurrent_ = false;
     changes.rebuilt = true;
