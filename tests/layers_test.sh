@@ -18,6 +18,11 @@ rows=$(grep -rnE '#include *[<"](epoxy/|EGL/|renderer/(.*/)?gl/)' renderer --inc
 if [ -n "$rows" ]; then printf 'OpenGL outside the gl parts:\n%s\n' "$rows"; bad=1; fi
 rows=$(grep -rnE '(std::rand\b|random_device|system_clock|time\(NULL\)|time\(nullptr\))' renderer editor 2>/dev/null)
 if [ -n "$rows" ]; then printf 'clock or unseeded randomness below ui:\n%s\n' "$rows"; bad=1; fi
+# Only counted calls wait for the GPU; queries are read when they are available.
+rows=$(grep -rnwE 'gl(Finish|ReadPixels|ReadnPixels|GetTexImage|GetnTexImage|GetTextureImage|GetTextureSubImage|GetBufferSubData|GetNamedBufferSubData|MapBuffer|MapBufferRange|MapNamedBuffer|MapNamedBufferRange|ClientWaitSync|GetQueryObject[a-z0-9]+|GetQueryBufferObject[a-z0-9]+)' \
+         renderer editor ui --include='*.h' --include='*.cpp' 2>/dev/null |
+  grep -vE '^(renderer/gl/(waits|query|stage_clock)\.cpp|ui/platform/read_pixels\.cpp):')
+if [ -n "$rows" ]; then printf 'waits for the GPU outside renderer/gl/waits.cpp:\n%s\n' "$rows"; bad=1; fi
 # The includes between the folders of a layer must not have a cycle, either.
 for layer in renderer editor ui; do
   loop=$(grep -rHE "^ *# *include *\"$layer/" "$layer" --include='*.h' --include='*.cpp' |

@@ -166,8 +166,8 @@ int converge(const ConvergeOptions& o, const Frontend& frontend) {
   const Scene to = o.to.empty() ? Scene() : load(o.to);
 
   const ThreadLimit limit(o.threads);
-  Session session(
-      std::make_unique<FrameRenderer>(frontend.makeBackend(o.backend), frontend.stopwatch));
+  Session session(std::make_unique<FrameRenderer>(frontend.makeBackend(o.backend),
+                                                  frontend.stopwatch, StageTimes::exact));
   session.renderer().setCacheFolder(transferFolder());
   session.resizeViewport(width, height);
   session.editing().setInitialRender(std::move(render));

@@ -170,7 +170,7 @@ int render(const RenderOptions& o, const Frontend& frontend) {
 
   ViewDisplay display;
   display.setView(debugView);
-  FrameRenderer renderer(frontend.makeBackend(o.backend), frontend.stopwatch);
+  FrameRenderer renderer(frontend.makeBackend(o.backend), frontend.stopwatch, StageTimes::exact);
   renderer.setCacheFolder(transferFolder());
   SceneChanges changes = SceneChanges::all();
   GiOutput out;

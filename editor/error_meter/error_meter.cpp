@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "renderer/image/average_blocks.h"
 #include "renderer/methods/path_tracer/parameters.h"
 
 namespace lamplighter {

@@ -7,13 +7,11 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
+#include "renderer/image/average_blocks.h"
 #include "renderer/scene/scene_changes.h"
 
 namespace lamplighter {
 namespace {
-
-// Blocks along a side; at least one.
-int blocksOf(int pixels, int block) { return std::max(1, pixels / std::max(block, 1)); }
 
 // Seeds that differ between the halves and from pictures of the method `reference`.
 uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0x6d657465u, 1u); }
@@ -25,22 +23,6 @@ Image ReferenceHalves::mean() const {
   for (size_t i = 0; i < mean.pixels.size(); ++i)
     mean.pixels[i] = 0.5f * (first.pixels[i] + second.pixels[i]);
   return mean;
-}
-
-Image averageBlocks(const Image& picture, int block) {
-  block = std::min({std::max(block, 1), picture.width, picture.height});
-  if (block <= 1) return picture;
-  Image blocks(blocksOf(picture.width, block), blocksOf(picture.height, block));
-  const float share = 1.0f / static_cast<float>(block * block);
-  for (int y = 0; y < blocks.height; ++y) {
-    for (int x = 0; x < blocks.width; ++x) {
-      vec3 sum(0.0f);
-      for (int j = 0; j < block; ++j)
-        for (int i = 0; i < block; ++i) sum += picture.at(x * block + i, y * block + j);
-      blocks.at(x, y) = share * sum;
-    }
-  }
-  return blocks;
 }
 
 void ReferenceSampler::begin(const MeterSubject& subject) {

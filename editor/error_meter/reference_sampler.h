@@ -43,10 +43,6 @@ struct ReferenceHalves {
   Image mean() const;
 };
 
-// The picture averaged over blocks of pixels. Incomplete blocks at the right and bottom are left
-// out. A picture smaller than a block becomes one block.
-Image averageBlocks(const Image& picture, int block);
-
 class ReferenceSampler {
  public:
   void begin(const MeterSubject& subject);

@@ -6,8 +6,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "editor/error_meter/reference_sampler.h"
-
 namespace lamplighter {
 namespace {
 
@@ -21,9 +19,9 @@ constexpr size_t kMostResults = 1000;
 // Relative difference below which two pictures look the same.
 constexpr double kInvisible = 1e-4;
 
-Image smallCopy(RadianceImage& picture) {
+std::shared_ptr<RadianceImage> smallCopy(RadianceImage& picture) {
   const int block = (std::max(picture.width(), picture.height()) + kSide - 1) / kSide;
-  return averageBlocks(picture.pixels(), block);
+  return picture.averaged(block);
 }
 
 double distance(const Image& a, const Image& b) {
@@ -91,8 +89,8 @@ void EditLatency::thinOut() {
 }
 
 void EditLatency::finish() {
-  const Image& settled = seen_.back().picture;
-  const double start = distance(before_, settled);
+  const Image& settled = seen_.back().picture->pixels();
+  const double start = distance(before_->pixels(), settled);
   const auto moment = [&](const Seen& s) {
     return LatencyResult::Moment{s.frame, 1e3 * (s.end - begin_)};
   };
@@ -105,7 +103,7 @@ void EditLatency::finish() {
     // Searches backwards from the end while the pictures are close enough: only a permanent
     // approach counts.
     size_t first = seen_.size() - 1;
-    while (first > 0 && distance(seen_[first - 1].picture, settled) <= most) --first;
+    while (first > 0 && distance(seen_[first - 1].picture->pixels(), settled) <= most) --first;
     result.within[i] = moment(seen_[first]);
   }
   results_.push_back(std::move(result));

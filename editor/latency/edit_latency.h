@@ -1,6 +1,6 @@
 // Measures the time from an edit until the picture is close to the settled picture. The settled
 // picture is known only at the end, so small copies of all pictures since the edit are kept until
-// then.
+// then; on the gl backend only then are they read back.
 #pragma once
 
 #include <array>
@@ -56,7 +56,7 @@ class EditLatency {
   struct Seen {
     int frame;
     double end;
-    Image picture;
+    std::shared_ptr<RadianceImage> picture;
   };
   void finish();
   void thinOut();
@@ -66,7 +66,7 @@ class EditLatency {
   View view_;
   double begin_ = 0.0;
   int frames_ = 0, stride_ = 1;
-  Image before_;
+  std::shared_ptr<RadianceImage> before_;
   std::vector<Seen> seen_;
   std::shared_ptr<RadianceImage> last_;  // picture of the previous frame
   View lastView_;

@@ -8,6 +8,7 @@
 #include "editor/split/heat_map.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/error.h"
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/registry/registry.h"
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <tbb/parallel_for.h>
+
 #include "renderer/base/error.h"
 
 namespace lamplighter {
@@ -13,6 +15,7 @@ BackendCounts Backend::counts() const {
     const BackendCounts counts = offer.kernels->counts();
     sum.rays += counts.rays;
     sum.memoryBytes += counts.memoryBytes;
+    sum.waits += counts.waits;
   }
   return sum;
 }
@@ -36,6 +39,26 @@ void Backend::renderGBuffer(const View& view, vec2 jitter) {
   drawGBuffer(view, jitter);
   hasGBuffer_ = true;
   forEachKernels([](MethodKernels& kernels) { kernels.takeGBuffer(); });
+}
+
+std::shared_ptr<RadianceImage> Backend::multiplied(const std::shared_ptr<RadianceImage>& picture,
+                                                   const std::shared_ptr<const Image>& gains) {
+  const Image& from = picture->pixels();
+  const auto result = pictures_.take(from.width, from.height);
+  tbb::parallel_for(0, from.height, [&](int y) {
+    for (int x = 0; x < from.width; ++x) result->image.at(x, y) = from.at(x, y) * gains->at(x, y);
+  });
+  return result;
+}
+
+std::shared_ptr<RadianceImage> Backend::difference(const std::shared_ptr<RadianceImage>& picture,
+                                                   const std::shared_ptr<RadianceImage>& taken) {
+  const Image &from = picture->pixels(), &less = taken->pixels();
+  const auto result = pictures_.take(from.width, from.height);
+  tbb::parallel_for(0, from.height, [&](int y) {
+    for (int x = 0; x < from.width; ++x) result->image.at(x, y) = from.at(x, y) - less.at(x, y);
+  });
+  return result;
 }
 
 void Backend::forEachKernels(const std::function<void(MethodKernels&)>& f) {

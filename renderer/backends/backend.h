@@ -12,6 +12,7 @@
 #include <typeindex>
 #include <vector>
 
+#include "renderer/backends/image_pool.h"
 #include "renderer/backends/method_kernels.h"
 #include "renderer/backends/radiance_image.h"
 #include "renderer/scene/camera.h"
@@ -71,6 +72,24 @@ class Backend {
   // of each pixel. `white`: with ρ = 1, which shows only the light.
   virtual std::shared_ptr<RadianceImage> compose(const Image& irradiance, bool white) = 0;
 
+  // The picture with each pixel multiplied by that of `gains`, an image of its size that does not
+  // change. It is not read back.
+  virtual std::shared_ptr<RadianceImage> multiplied(const std::shared_ptr<RadianceImage>& picture,
+                                                    const std::shared_ptr<const Image>& gains);
+  // Each pixel of the picture minus that of `taken`, likewise.
+  virtual std::shared_ptr<RadianceImage> difference(const std::shared_ptr<RadianceImage>& picture,
+                                                    const std::shared_ptr<RadianceImage>& taken);
+
+  // --- Times of stages, without waiting for the device ---
+
+  // The device's work from here to the first endStage(), and from each of these to the next,
+  // belongs to that stage of the frame.
+  virtual void beginStages() {}
+  virtual void endStage(size_t /*stage*/) {}
+  // Seconds of that work, in the newest frame for which they are known; 0: none, or the processor
+  // does the work.
+  virtual double stageSeconds(size_t /*stage*/) const { return 0.0; }
+
   // --- Kernels of methods ---
 
   // The kernels with this interface, made on the first call and told the present scene and
@@ -117,6 +136,7 @@ class Backend {
   MethodKernels* inUse(std::type_index interface);
 
   std::vector<Offer> offers_;
+  ImagePool pictures_;                  // of multiplied() and difference()
   const RenderScene* scene_ = nullptr;  // of the last setScene()
   const RayCaster* rays_ = nullptr;
   bool hasGBuffer_ = false;

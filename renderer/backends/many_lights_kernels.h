@@ -30,6 +30,7 @@ struct ManyLightsCounts {
   // one.
   uint64_t mergedPasses = 0, passesSaved = 0;
   uint64_t pixelsInterpolated = 0;  // by the low-resolution pass (cpu)
+  uint64_t bytesUploaded = 0;       // of patches, light maps and light lists, to the GPU (gl)
   uint64_t mapBytes = 0;            // memory of shadow maps
   uint64_t mapsHeld = 0;            // number of shadow maps in memory
 };

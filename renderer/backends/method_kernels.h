@@ -14,6 +14,7 @@ namespace lamplighter {
 struct BackendCounts {
   uint64_t rays = 0;
   uint64_t memoryBytes = 0;
+  uint64_t waits = 0;  // times that the processor waited for the device (gl::Waits)
 };
 
 // The backend that owns the kernels calls these functions.

@@ -1,8 +1,10 @@
 // The picture of a frame, in any memory.
 #pragma once
 
+#include <memory>
 #include <utility>
 
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/image.h"
 
 namespace lamplighter {
@@ -14,6 +16,9 @@ class RadianceImage {
   virtual int width() const = 0;
   virtual int height() const = 0;
   virtual const Image& pixels() = 0;  // linear radiance [W/(m² sr)]
+  // A copy as by averageBlocks(), in the same memory: the gl backend reads only the copy back, when
+  // somebody asks for its pixels.
+  virtual std::shared_ptr<RadianceImage> averaged(int block);
 };
 
 // A picture in main memory.
@@ -27,5 +32,9 @@ class HostImage final : public RadianceImage {
  private:
   Image image_;
 };
+
+inline std::shared_ptr<RadianceImage> RadianceImage::averaged(int block) {
+  return std::make_shared<HostImage>(averageBlocks(pixels(), block));
+}
 
 }  // namespace lamplighter

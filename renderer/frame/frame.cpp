@@ -6,8 +6,9 @@
 
 namespace lamplighter {
 
-FrameRenderer::FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch)
-    : backend_(std::move(backend)), stopwatch_(std::move(stopwatch)) {}
+FrameRenderer::FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch,
+                             StageTimes stageTimes)
+    : backend_(std::move(backend)), stopwatch_(std::move(stopwatch)), stageTimes_(stageTimes) {}
 
 FrameRenderer::~FrameRenderer() = default;
 
@@ -58,7 +59,7 @@ GiOutput FrameRenderer::renderUpdated(const Request& request) {
                        isOtherScene);
   GiOutput output =
       method_->render({scene_, changes, request.view, *backend_, services_, request.settings,
-                       frame_++, stopwatch_, request.lightOnly, request.part});
+                       frame_++, stopwatch_, stageTimes_, request.lightOnly, request.part});
   backend_->checkDevice();
   return output;
 }

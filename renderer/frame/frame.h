@@ -12,7 +12,9 @@ namespace lamplighter {
 // All state that is kept between frames, for one scene on one backend.
 class FrameRenderer {
  public:
-  explicit FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch = {});
+  // stageTimes: if there is a stopwatch.
+  explicit FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch = {},
+                         StageTimes stageTimes = StageTimes::late);
   ~FrameRenderer();
 
   struct Request {
@@ -57,6 +59,7 @@ class FrameRenderer {
 
   std::unique_ptr<Backend> backend_;
   Stopwatch stopwatch_;
+  StageTimes stageTimes_;
   RenderScene scene_;
   std::unique_ptr<RayCaster> rays_;
   RenderSceneChanges pending_;  // changes that the backend and the method have not received yet

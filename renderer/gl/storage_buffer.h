@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "renderer/base/error.h"
 #include "renderer/gl/objects.h"
@@ -53,17 +52,6 @@ class StorageBuffer {
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer_.name(),
                       static_cast<GLintptr>(first * sizeof(T)),
                       static_cast<GLsizeiptr>(count * sizeof(T)));
-  }
-
-  // Waits for the GPU: for tests.
-  std::vector<T> read() const {
-    std::vector<T> values(size_);
-    if (size_ > 0) {
-      glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-      glGetNamedBufferSubData(buffer_.name(), 0, static_cast<GLsizeiptr>(size_ * sizeof(T)),
-                              values.data());
-    }
-    return values;
   }
 
   size_t size() const { return size_; }

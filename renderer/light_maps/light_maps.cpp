@@ -98,6 +98,8 @@ void LightMaps::makeTiles(Object& object, const ObjectPatches& patches) const {
   object.held.assign(tiles * words_, 0);
   object.refused.assign(tiles * words_, 0);
   object.isLeftOut.assign(tiles, 1);
+  object.writes.assign(tiles, 0);
+  object.tiling.advance();
   if (before.tiles.ofPatch.size() != object.tiles.ofPatch.size()) return;
   for (size_t t = 0; t < tiles; ++t) {
     const LightMapTile& tile = object.tiles.tiles[t];
@@ -271,6 +273,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
                sums + 2 * count);
     written += changes.size() * count;
     wrote[j] = 1;
+    ++o.writes[job.tile];
     readSums(sums, sums + count, sums + 2 * count, {&o.irradiance[tile.first], count});
   });
   written_ += written;

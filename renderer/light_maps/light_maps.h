@@ -102,6 +102,13 @@ class LightMaps {
   std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
   const Revision& coverage() const { return coverage_; }  // of which patches have tiles
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }
+  // Of which tiles an object has, and of their places in texels().
+  const Revision& tiling(uint32_t object) const { return objects_[object].tiling; }
+  std::span<const LightMapTile> tiles(uint32_t object) const {
+    return objects_[object].tiles.tiles;
+  }
+  // By tile: how often its texels were written under this tiling.
+  std::span<const uint32_t> writes(uint32_t object) const { return objects_[object].writes; }
 
   size_t objects() const { return objects_.size(); }
   size_t texels() const;
@@ -127,7 +134,9 @@ class LightMaps {
     std::vector<uint64_t> held, refused;
     // by tile: it was not visible when something changed, so it is out of date
     std::vector<uint8_t> isLeftOut;
-    Revision revision;  // of tiles and texels
+    std::vector<uint32_t> writes;  // by tile
+    Revision revision;             // of tiles and texels
+    Revision tiling;               // of tiles
   };
   static Size sizeOf(const Object& object, const ObjectPatches& patches, float texel);
   float fittingTexel(const VisibilityDatabase& visibility, size_t words) const;

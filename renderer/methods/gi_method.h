@@ -24,6 +24,11 @@ namespace lamplighter {
 // method reads a clock. Measured times never influence the result.
 using Stopwatch = std::function<double()>;  // seconds since some fixed moment
 
+// How stages are timed on a device that works beside the processor. exact: each stage waits until
+// the device has finished it. late: nothing waits; a stage takes the longer of the processor's time
+// and the device's, which is of an earlier frame.
+enum class StageTimes : uint8_t { late, exact };
+
 // The input of a method for one frame. The scene, the backend and the services are up to date when
 // render() is called.
 struct FrameInputs {
@@ -35,6 +40,7 @@ struct FrameInputs {
   const Settings& settings;
   uint32_t frame = 0;  // counts from 0
   Stopwatch stopwatch;
+  StageTimes stageTimes = StageTimes::late;
   bool lightOnly = false;           // visible surfaces are shown white; bounces use the real albedo
   LightPart part = LightPart::all;  // the light in the picture; a picture of a part is not refined
 };

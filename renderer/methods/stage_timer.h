@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "renderer/methods/gi_method.h"
 
@@ -21,7 +22,8 @@ class StageTimer {
  private:
   const FrameInputs& in_;
   GiStats& stats_;
-  double last_ = 0.0;  // [s]
+  double last_ = 0.0;               // [s]
+  std::vector<double> ownSeconds_;  // by stage: of the processor
 };
 
 }  // namespace lamplighter

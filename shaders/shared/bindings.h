@@ -33,8 +33,8 @@ SHARED_CONST int kHardPlaceBuffer = 0;  // by place, 1: a hard shadow may lie th
 // by triangle of the scene: one bit per link (light_linking.h)
 SHARED_CONST int kLeftOutBuffer = 1;
 
-// Of prefix sums and cumulative distributions (renderer/gl/scan.h). Rows of the sums and shares have
-// one more entry than the values.
+// Of prefix sums and cumulative distributions (renderer/gl/scan.h). Rows of the sums and shares
+// have one more entry than the values.
 SHARED_CONST int kScanValues = 0;
 SHARED_CONST int kScanSums = 1;
 SHARED_CONST int kScanGroupSums = 2;  // by row and work group: the sum of its values
@@ -50,6 +50,10 @@ SHARED_CONST int kUv0Attribute = 3;
 SHARED_CONST int kUv1Attribute = 4;
 SHARED_CONST int kColorAttribute = 5;
 SHARED_CONST int kFirstIndexAttribute = 6;  // one per object: the start of its indices
+
+// In passes over whole pictures (picture_passes.h):
+SHARED_CONST int kPicture = 0;
+SHARED_CONST int kOtherPicture = 1;
 
 SHARED_CONST int kBaseColorTexture = 0;
 SHARED_CONST int kNormalTexture = 1;

@@ -7,11 +7,13 @@ GlBackend::GlBackend(std::unique_ptr<HeadlessContext> context, const std::filesy
     : context_(std::move(context)),
       shaders_(shaders),
       info_{"gl", reinterpret_cast<const char*>(glGetString(GL_RENDERER))},
+      passes_(std::make_shared<PicturePasses>(shaders)),
       gbuffer_(shaders),
-      composition_(shaders) {}
+      composition_(shaders, passes_) {}
 
 BackendCounts GlBackend::ownCounts() const {
-  return {0, scene_.bytes() + gbuffer_.bytes() + composition_.bytes() + hostGBuffer_.bytes()};
+  return {0, scene_.bytes() + gbuffer_.bytes() + composition_.bytes() + hostGBuffer_.bytes(),
+          passes_->waits().count()};
 }
 
 void GlBackend::takeScene(const RenderScene& scene, const RenderSceneChanges& changes,
@@ -34,9 +36,25 @@ GBufferView GlBackend::hostGBuffer() {
   return GBufferView(hostGBuffer_);
 }
 
+std::shared_ptr<RadianceImage> GlBackend::multiplied(const std::shared_ptr<RadianceImage>& picture,
+                                                     const std::shared_ptr<const Image>& gains) {
+  const auto* texture = dynamic_cast<const RadianceTexture*>(picture.get());
+  if (texture == nullptr) return Backend::multiplied(picture, gains);
+  return composition_.multiplied(*texture, gains);
+}
+
+std::shared_ptr<RadianceImage> GlBackend::difference(const std::shared_ptr<RadianceImage>& picture,
+                                                     const std::shared_ptr<RadianceImage>& taken) {
+  const auto* from = dynamic_cast<const RadianceTexture*>(picture.get());
+  const auto* less = dynamic_cast<const RadianceTexture*>(taken.get());
+  if (from == nullptr || less == nullptr) return Backend::difference(picture, taken);
+  return composition_.difference(*from, *less);
+}
+
 void GlBackend::reload(const std::filesystem::path& shaders) {
   gbuffer_.reload(shaders);
   composition_.reload(shaders);
+  passes_->reload(shaders);
   forEachKernels([&](MethodKernels& kernels) { kernels.reloadShaders(shaders); });
   shaders_ = shaders;
 }

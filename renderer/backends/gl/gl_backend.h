@@ -12,6 +12,7 @@
 #include "renderer/gl/debug.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/gl/shader_source.h"
+#include "renderer/gl/stage_clock.h"
 
 namespace lamplighter {
 namespace gl {
@@ -23,19 +24,27 @@ class GlBackend final : public Backend {
   ~GlBackend() override { dropKernels(); }
 
   const BackendInfo& info() const override { return info_; }
-  void finish() override { glFinish(); }
+  void finish() override { waits().finish(); }
   void checkDevice() override { gl::takeErrors(); }
   GBufferView hostGBuffer() override;
-  Image readNormals() override { return gbuffer_.readNormals(); }
-  Image readAlbedo() override { return gbuffer_.readAlbedo(); }
+  Image readNormals() override { return gbuffer_.readNormals(waits()); }
+  Image readAlbedo() override { return gbuffer_.readAlbedo(waits()); }
   std::shared_ptr<RadianceImage> compose(const Image& irradiance, bool white) override {
     return composition_.compose(gbuffer_, scene_.scene().sky, irradiance, white);
   }
+  std::shared_ptr<RadianceImage> multiplied(const std::shared_ptr<RadianceImage>& picture,
+                                            const std::shared_ptr<const Image>& gains) override;
+  std::shared_ptr<RadianceImage> difference(const std::shared_ptr<RadianceImage>& picture,
+                                            const std::shared_ptr<RadianceImage>& taken) override;
+  void beginStages() override { stageClock_.begin(); }
+  void endStage(size_t stage) override { stageClock_.end(stage); }
+  double stageSeconds(size_t stage) const override { return stageClock_.seconds(stage); }
 
   // For kernels. The textures of the G-buffer are bound by GlGBuffer::bind().
   const GlScene& scene() const { return scene_; }
   const GlGBuffer& gbuffer() const { return gbuffer_; }
   const std::filesystem::path& shaders() const { return shaders_; }  // the folder
+  Waits& waits() { return passes_->waits(); }
   // Like compose() above, with E in the RGB of a float texture of the size of the G-buffer.
   // Negative values count as zero. Without emission: only the light that surfaces reflect.
   std::shared_ptr<RadianceTexture> compose(GLuint irradiance, bool white,
@@ -58,6 +67,8 @@ class GlBackend final : public Backend {
   std::unique_ptr<HeadlessContext> context_;
   std::filesystem::path shaders_;
   BackendInfo info_;
+  std::shared_ptr<PicturePasses> passes_;  // pictures share it
+  StageClock stageClock_;
   GlScene scene_;
   GlGBuffer gbuffer_;
   GlComposition composition_;

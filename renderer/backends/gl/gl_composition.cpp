@@ -6,8 +6,11 @@
 
 namespace lamplighter::gl {
 
-GlComposition::GlComposition(const std::filesystem::path& shaders)
-    : emptyVertexArray_(VertexArray::make()), pictureFramebuffer_(Framebuffer::make()) {
+GlComposition::GlComposition(const std::filesystem::path& shaders,
+                             std::shared_ptr<PicturePasses> passes)
+    : passes_(std::move(passes)),
+      emptyVertexArray_(VertexArray::make()),
+      pictureFramebuffer_(Framebuffer::make()) {
   reload(shaders);
 }
 
@@ -27,6 +30,8 @@ void GlComposition::resize(int width, int height) {
   height_ = height;
   pictures_.clear();
   irradiance_ = {};
+  gainsTexture_ = {};
+  gains_.reset();
 }
 
 std::shared_ptr<RadianceTexture> GlComposition::freePicture() {
@@ -36,7 +41,7 @@ std::shared_ptr<RadianceTexture> GlComposition::freePicture() {
       return picture;
     }
   }
-  return pictures_.emplace_back(std::make_shared<RadianceTexture>(width_, height_));
+  return pictures_.emplace_back(std::make_shared<RadianceTexture>(width_, height_, passes_));
 }
 
 // Sets the uniforms of compose.frag.glsl that describe the sky.
@@ -99,9 +104,33 @@ std::shared_ptr<RadianceTexture> GlComposition::compose(const GlGBuffer& gbuffer
   return compose(gbuffer, sky, irradiance_.name(), white);
 }
 
+std::shared_ptr<RadianceTexture> GlComposition::multiplied(
+    const RadianceTexture& picture, const std::shared_ptr<const Image>& gains) {
+  resize(picture.width(), picture.height());
+  if (gains_ != gains) {
+    if (!gainsTexture_) gainsTexture_ = makeTexture2D(GL_RGB32F, width_, height_);
+    glTextureSubImage2D(gainsTexture_.name(), 0, 0, 0, width_, height_, GL_RGB, GL_FLOAT,
+                        gains->pixels.data());
+    gains_ = gains;
+  }
+  auto result = freePicture();
+  passes_->multiply(picture.texture(), gainsTexture_.name(), result->texture(), {width_, height_});
+  return result;
+}
+
+std::shared_ptr<RadianceTexture> GlComposition::difference(const RadianceTexture& picture,
+                                                           const RadianceTexture& taken) {
+  resize(picture.width(), picture.height());
+  auto result = freePicture();
+  passes_->subtract(picture.texture(), taken.texture(), result->texture(), {width_, height_});
+  return result;
+}
+
 uint64_t GlComposition::bytes() const {
   const uint64_t pixels = static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_);
-  uint64_t bytes = (pictures_.size() * uint64_t{16} + (irradiance_ ? 12 : 0)) * pixels;
+  uint64_t bytes =
+      (pictures_.size() * uint64_t{16} + (irradiance_ ? 12 : 0) + (gainsTexture_ ? 12 : 0)) *
+      pixels;
   if (skyTexture_) bytes += skyImage_->pixels.pixels.size() * sizeof(vec3);
   return bytes;
 }

@@ -127,7 +127,7 @@ void GlGBuffer::bind() const {
   glBindTextureUnit(shared::kGGloss, gloss_.name());
 }
 
-Image GlGBuffer::readNormals() const {
+Image GlGBuffer::readNormals(Waits& waits) const {
   const Texture vectors = makeTexture2D(GL_RGBA32F, width_, height_);
   const Framebuffer framebuffer = Framebuffer::make();
   glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, vectors.name(), 0);
@@ -137,10 +137,12 @@ Image GlGBuffer::readNormals() const {
     normals_.use();
     drawFullScreen(emptyVertexArray_.name());
   }
-  return readBack(vectors.name(), width_, height_);
+  return readBack(waits, vectors.name(), width_, height_);
 }
 
-Image GlGBuffer::readAlbedo() const { return readBack(albedo_.name(), width_, height_); }
+Image GlGBuffer::readAlbedo(Waits& waits) const {
+  return readBack(waits, albedo_.name(), width_, height_);
+}
 
 uint64_t GlGBuffer::bytes() const {
   return ShadingPoints::bytes(width_, height_) +

@@ -7,6 +7,7 @@
 #include "renderer/backends/gl/gl_scene.h"
 #include "renderer/backends/gl/shading_points.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/waits.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/frustum.h"
 
@@ -21,8 +22,8 @@ class GlGBuffer {
   // Binds the textures to the units of shaders/shared/bindings.h.
   void bind() const;
   const ShadingPoints& points() const { return points_; }
-  Image readNormals() const;
-  Image readAlbedo() const;
+  Image readNormals(Waits& waits) const;
+  Image readAlbedo(Waits& waits) const;
 
   // Of the view in the G-buffer.
   const Frustum& frustum() const { return frustum_; }

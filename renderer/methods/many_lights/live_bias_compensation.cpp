@@ -1,6 +1,7 @@
 #include "renderer/methods/many_lights/live_bias_compensation.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -38,27 +39,24 @@ std::shared_ptr<RadianceImage> LiveBiasCompensation::addTo(RadianceImage& settle
 }
 
 void LiveBiasCompensation::takeGains(const Image& without, const Image& with) {
-  gains_ = Image(with.width, with.height);
+  Image gains(with.width, with.height);
   tbb::parallel_for(0, with.height, [&](int y) {
     for (int x = 0; x < with.width; ++x) {
       for (int c = 0; c < 3; ++c) {
         const float before = without.at(x, y)[c], after = with.at(x, y)[c];
-        gains_.at(x, y)[c] = after < kMostGain * before ? after / before : kMostGain;
-        if (!(after > before)) gains_.at(x, y)[c] = 1.0f;
+        gains.at(x, y)[c] = after < kMostGain * before ? after / before : kMostGain;
+        if (!(after > before)) gains.at(x, y)[c] = 1.0f;
       }
     }
   });
+  gains_ = std::make_shared<const Image>(std::move(gains));
 }
 
 std::shared_ptr<RadianceImage> LiveBiasCompensation::scale(
-    const std::shared_ptr<RadianceImage>& picture) {
-  if (gains_.width != picture->width() || gains_.height != picture->height()) return picture;
-  const Image& from = picture->pixels();
-  const auto scaled = scaled_.take(from.width, from.height);
-  tbb::parallel_for(0, from.height, [&](int y) {
-    for (int x = 0; x < from.width; ++x) scaled->image.at(x, y) = from.at(x, y) * gains_.at(x, y);
-  });
-  return scaled;
+    Backend& backend, const std::shared_ptr<RadianceImage>& picture) const {
+  const bool fits =
+      gains_ && gains_->width == picture->width() && gains_->height == picture->height();
+  return fits ? backend.multiplied(picture, gains_) : picture;
 }
 
 }  // namespace lamplighter

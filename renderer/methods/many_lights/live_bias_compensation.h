@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/backends/image_pool.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/bias_compensation.h"
 #include "renderer/sampling/light_sample_table.h"
@@ -32,13 +31,14 @@ class LiveBiasCompensation {
   void takeGains(const Image& without, const Image& with);
   // An unsettled picture, each pixel scaled by its gain when it was settled. Returns the picture
   // itself if no gains are kept.
-  std::shared_ptr<RadianceImage> scale(const std::shared_ptr<RadianceImage>& picture);
+  std::shared_ptr<RadianceImage> scale(Backend& backend,
+                                       const std::shared_ptr<RadianceImage>& picture) const;
 
  private:
   int rows_ = 0;  // rows computed so far
   std::vector<BiasCompensation::Pixel> pixels_;
-  Image gains_;  // ratio of the picture with this light to the one without it
-  ImagePool scaled_;
+  // Ratio of the picture with this light to the one without it; null: unknown.
+  std::shared_ptr<const Image> gains_;
 };
 
 }  // namespace lamplighter

@@ -52,6 +52,8 @@ constexpr int kHardMapsAFrame = 2;
 GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out;
   ManyLightsStats stats;
+  waitsBefore_ = in.backend.counts().waits;
+  uploadsBefore_ = kernels_->lightCounts().bytesUploaded;
   StageTimer stages(in, kManyLightsStages, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0);
   const bool wantsVisibility = options.useVisibility();
@@ -137,7 +139,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (usesShares(in, options)) {
     if (isReady && !shadedNow) goOnWithShares(in, options, stages);
     out.settled = isReady && !isHasty_ && shares_.isDone() && !holdsMix_;
-    out.radiance = options.cornerLight ? corners_.scale(image_) : image_;
+    out.radiance = options.cornerLight ? corners_.scale(in.backend, image_) : image_;
     if (out.settled || holdsMix_) out.radiance = mixed_;
   } else {
     if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
@@ -162,6 +164,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 void ManyLights::count(const FrameInputs& in, const Options& options, const GiOutput& out,
                        ManyLightsStats& stats) const {
   const int pending = lights_.pending();
+  stats.glWaits = in.backend.counts().waits - waitsBefore_;
+  stats.glUploads = kernels_->lightCounts().bytesUploaded - uploadsBefore_;
   stats.vpls = lights_.live();
   stats.pending = pending;
   stats.oldestFrames = lights_.oldestFrames();
@@ -344,7 +348,8 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   std::shared_ptr<RadianceImage> image = kernels_->compose(in.lightOnly);
   if (in.part == LightPart::indirect) {
     kernels_->sumVpls({}, params, nullptr);
-    image = without(*kernels_->compose(in.lightOnly), *image);
+    // Without emissive surfaces and the sky.
+    image = in.backend.difference(image, kernels_->compose(in.lightOnly));
   }
   stages.end(kCompositionStage);
   return image;

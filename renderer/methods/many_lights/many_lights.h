@@ -94,8 +94,10 @@ class ManyLights final : public GiMethod {
   bool gbufferIsCurrent_ = false;
   // The last sum left pixels, or also highlights, to later frames; from scratch it would have.
   bool sumIsLimited_ = false, isLimited_ = false, isLong_ = false;
-  bool isHasty_ = false;                    // the camera moves: fewer samples, more interpolation
-  std::shared_ptr<RadianceImage> image_;    // picture with unjittered pixels
+  bool isHasty_ = false;                  // the camera moves: fewer samples, more interpolation
+  std::shared_ptr<RadianceImage> image_;  // picture with unjittered pixels
+  // Before this frame: of BackendCounts and ManyLightsCounts.
+  uint64_t waitsBefore_ = 0, uploadsBefore_ = 0;
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum
   float interpolatedShare_ = 0.0f;          // of the last sum
   // Antialiasing: the sum of the samples so far; their mean when they are complete.

@@ -12,11 +12,4 @@ void PartLights::update(const RenderScene& scene, const VisibilityDatabase& visi
   maps_->update(scene, visibility, lights.summed, maps.options);
 }
 
-std::shared_ptr<RadianceImage> without(RadianceImage& unlit, RadianceImage& picture) {
-  const Image& taken = unlit.pixels();
-  Image rest = picture.pixels();
-  for (size_t i = 0; i < rest.pixels.size(); ++i) rest.pixels[i] -= taken.pixels[i];
-  return std::make_shared<HostImage>(std::move(rest));
-}
-
 }  // namespace lamplighter

@@ -31,7 +31,4 @@ class PartLights {
   LightProxies lightProxies_;
 };
 
-// The picture minus `unlit`: without emissive surfaces and the sky.
-std::shared_ptr<RadianceImage> without(RadianceImage& unlit, RadianceImage& picture);
-
 }  // namespace lamplighter

@@ -139,7 +139,7 @@ std::shared_ptr<RadianceImage> ManyLights::fillCorners(
     if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
     stages.end(kCornersStage);
   }
-  return isSmooth && corners_.isWhole(in.view) ? whole_ : corners_.scale(picture);
+  return isSmooth && corners_.isWhole(in.view) ? whole_ : corners_.scale(in.backend, picture);
 }
 
 void ManyLights::addSample(const FrameInputs& in, const Options& options, StageTimer& stages) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "renderer/image/average_blocks.h"
 #include "tests/editor/session_fixture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"

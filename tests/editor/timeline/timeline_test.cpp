@@ -103,9 +103,10 @@ TEST(Timeline, HasTheCountersOfTheMethodsOfItsFrames) {
   timeline.add(2, 2.1, 2.2, published(GiStats(), commonStatistics()));
   std::vector<std::string> names;
   for (const StatisticSpec* counter : timeline.counters()) names.push_back(counter->name);
-  EXPECT_EQ(names, (std::vector<std::string>{"vpls", "vpls_refreshed", "vpls_pending",
-                                             "maps_rendered", "maps_held", "visibility_tests",
-                                             "light_map_texels", "paths_walked", "rays"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "vpls", "vpls_refreshed", "vpls_pending", "gl_waits", "gl_uploads", "maps_rendered",
+                "maps_held", "visibility_tests", "light_map_texels", "paths_walked", "rays"}));
 }
 
 TEST(Timeline, ATableHasARowAFrame) {

@@ -32,17 +32,19 @@ TEST_F(Compute, WritesImagesAndCountsInWholeWorkGroups) {
   gl::bindImage(0, image, GL_RGBA32F, GL_WRITE_ONLY);
   gl::bindImage(1, hits, GL_R32UI, GL_READ_WRITE);
   program.dispatch({kWidth, kHeight, 1}, GL_TEXTURE_UPDATE_BARRIER_BIT);
-  const Image pixels = gl::readBack(image.name(), kWidth, kHeight);
+  gl::Waits waits;
+  const Image pixels = gl::readBack(waits, image.name(), kWidth, kHeight);
+  EXPECT_EQ(waits.count(), 1u);
   for (size_t i = 0; i < values.size(); ++i)
     EXPECT_EQ(pixels.pixels[i], 2.0f * vec3(static_cast<float>(i)));
-  EXPECT_EQ(count.read()[0], static_cast<uint32_t>(kWidth * kHeight));
+  EXPECT_EQ(test::read(count)[0], static_cast<uint32_t>(kWidth * kHeight));
   uint32_t columns[2];
   glGetTextureImage(hits.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, sizeof(columns), columns);
   EXPECT_EQ(columns[0], 11u * kHeight);
   EXPECT_EQ(columns[1], 10u * kHeight);
 
   program.dispatch({0, kHeight, 1}, GL_SHADER_STORAGE_BARRIER_BIT);  // an empty dispatch
-  EXPECT_EQ(count.read()[0], static_cast<uint32_t>(kWidth * kHeight));
+  EXPECT_EQ(test::read(count)[0], static_cast<uint32_t>(kWidth * kHeight));
   EXPECT_THROW(program.dispatch({~0u, 1, 1}, 0), InputError);
 }
 
@@ -63,15 +65,15 @@ TEST_F(Compute, StorageBuffersAreUpdatedInPart) {
   gl::StorageBuffer<uint32_t> buffer;
   EXPECT_EQ(buffer.size(), 0u);
   buffer.set({});
-  EXPECT_TRUE(buffer.read().empty());
+  EXPECT_TRUE(test::read(buffer).empty());
   buffer.set(std::vector<uint32_t>{1, 2, 3, 4});
   buffer.update(1, std::vector<uint32_t>{7, 8});
-  EXPECT_EQ(buffer.read(), (std::vector<uint32_t>{1, 7, 8, 4}));
+  EXPECT_EQ(test::read(buffer), (std::vector<uint32_t>{1, 7, 8, 4}));
   buffer.set(std::vector<uint32_t>{5, 6, 7, 8});
-  EXPECT_EQ(buffer.read(), (std::vector<uint32_t>{5, 6, 7, 8}));
+  EXPECT_EQ(test::read(buffer), (std::vector<uint32_t>{5, 6, 7, 8}));
   buffer.resize(2);
   buffer.clear();
-  EXPECT_EQ(buffer.read(), (std::vector<uint32_t>{0, 0}));
+  EXPECT_EQ(test::read(buffer), (std::vector<uint32_t>{0, 0}));
   EXPECT_EQ(buffer.bytes(), 8u);
 }
 

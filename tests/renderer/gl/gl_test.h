@@ -3,11 +3,13 @@
 
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"
 #include "renderer/gl/headless_context.h"
+#include "renderer/gl/storage_buffer.h"
 
 namespace lamplighter::test {
 
@@ -33,5 +35,15 @@ class GlTest : public ::testing::Test {
  private:
   std::unique_ptr<gl::HeadlessContext> context_;
 };
+
+// The elements of a buffer. Waits for the GPU.
+template <typename T>
+std::vector<T> read(const gl::StorageBuffer<T>& buffer) {
+  std::vector<T> values(buffer.size());
+  if (values.empty()) return values;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(buffer.bytes()), values.data());
+  return values;
+}
 
 }  // namespace lamplighter::test

@@ -38,7 +38,7 @@ TEST_F(GlScan, SumsIntegersExactly) {
     gl::StorageBuffer<uint32_t> in, out;
     in.set(values);
     scan.run(in, length, 1, out);
-    EXPECT_EQ(out.read(), exclusiveScan(values)) << length;
+    EXPECT_EQ(test::read(out), exclusiveScan(values)) << length;
   }
 }
 
@@ -55,10 +55,10 @@ TEST_F(GlScan, SumsFloatsRowByRow) {
       const auto sums = exclusiveScan(std::span(values).subspan(row * columns, columns));
       expected.insert(expected.end(), sums.begin(), sums.end());
     }
-    expectNear(out.read(), expected, 1e-6f * static_cast<float>(columns));
-    const std::vector<float> first = out.read();
+    expectNear(test::read(out), expected, 1e-6f * static_cast<float>(columns));
+    const std::vector<float> first = test::read(out);
     scan.run(in, columns, kRows, out);
-    EXPECT_EQ(first, out.read());  // bit for bit
+    EXPECT_EQ(first, test::read(out));  // bit for bit
   }
 }
 
@@ -72,8 +72,8 @@ TEST_F(GlScan, GivesTheDistributionOfTheCpu) {
     in.set(weights);
     pass.run(in, length, 1, cdf, totals);
     const Cdf expected(weights);
-    expectNear(cdf.read(), expected.values(), 1e-6f);
-    EXPECT_NEAR(totals.read()[0] / expected.total(), 1.0, 1e-6) << length;
+    expectNear(test::read(cdf), expected.values(), 1e-6f);
+    EXPECT_NEAR(test::read(totals)[0] / expected.total(), 1.0, 1e-6) << length;
   }
 }
 
@@ -85,7 +85,7 @@ TEST_F(GlScan, IsUniformForZerosAndHandlesOneHugeWeight) {
   gl::StorageBuffer<float> in, cdf, totals;
   in.set(weights);
   pass.run(in, 1000, 3, cdf, totals);
-  const std::vector<float> shares = cdf.read();
+  const std::vector<float> shares = test::read(cdf);
   for (size_t i = 0; i <= 1000; ++i) {
     EXPECT_EQ(shares[i], static_cast<float>(i) / 1000.0f);
     if (i > 700) {
@@ -94,7 +94,7 @@ TEST_F(GlScan, IsUniformForZerosAndHandlesOneHugeWeight) {
       EXPECT_LT(shares[1001 + i], 1e-20f);
     }
   }
-  EXPECT_EQ(totals.read(), (std::vector<float>{0.0f, 1e30f, 0.0f}));
+  EXPECT_EQ(test::read(totals), (std::vector<float>{0.0f, 1e30f, 0.0f}));
 }
 
 TEST_F(GlScan, ShadersSampleTheDistribution) {
@@ -118,8 +118,8 @@ TEST_F(GlScan, ShadersSampleTheDistribution) {
   within.bind(3);
   sample.set(0, static_cast<int>(kCount));
   sample.dispatch(static_cast<uint32_t>(u.size()), GL_SHADER_STORAGE_BARRIER_BIT);
-  const std::vector<uint32_t> indices = found.read();
-  const std::vector<float> rests = within.read();
+  const std::vector<uint32_t> indices = test::read(found);
+  const std::vector<float> rests = test::read(within);
   const Cdf expected(weights);
   for (size_t i = 0; i < u.size(); ++i) {
     ASSERT_LT(indices[i], kCount);

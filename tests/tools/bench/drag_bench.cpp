@@ -60,7 +60,7 @@ void drag(benchmark::State& state, const Case& c) {
   settings.set("technique", std::string(c.technique));
   settings.set("antialias", 1);
   settings.set("prt", c.prt);
-  FrameRenderer renderer(backendOf(c.backend), seconds);
+  FrameRenderer renderer(backendOf(c.backend), seconds, StageTimes::exact);
   FrameTimeControl control;
   const double milliseconds = frameBudgetParameters().read(settings).frameTime;
   const auto frame = [&](const SceneChanges& changes) {

@@ -91,7 +91,7 @@ void objectMoves(benchmark::State& state, const std::string& name, const MakeBac
 // On one scene: nanoseconds per light and pixel for the sum alone, and shadow maps per second.
 void kernels(benchmark::State& state, const std::string& name, const MakeBackend& make) {
   Level level(name);
-  FrameRenderer renderer(make(), seconds);
+  FrameRenderer renderer(make(), seconds, StageTimes::exact);
   const int vpls = static_cast<int>(state.range(0));
   const Settings settings = settingsOf(vpls, vpls);
   SceneChanges moved;

@@ -100,6 +100,7 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   clear(gbuffer.width(), gbuffer.height());
   gbuffer.bind();
   if (patches == nullptr) {
+    uploadedBefore_ = uploaded();
     patches_.reset();
     pixels_.dropPlaces();
     for (SampleGrid& grid : grids_) grid = {};
@@ -150,6 +151,15 @@ void GlLighting::sumListed(const GlScene& scene, const Sum& sum, const ShadingPo
   add(scene, sum, target, true);
 }
 
+// before: what the buffer holds, if it holds anything.
+template <typename T>
+void GlLighting::upload(StorageBuffer<T>& buffer, std::span<const T> now,
+                        std::span<const T> before) {
+  if (buffer.name() != 0 && std::ranges::equal(now, before)) return;
+  buffer.set(now);
+  patches_->bytesUploaded += now.size_bytes();
+}
+
 void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
                              const PatchLights& lights) {
   if (!patches_) patches_ = std::make_unique<Patches>();
@@ -164,6 +174,7 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
   std::vector<LightGroup> groups;
   for (const Batch& batch : sum.batches) groups.push_back({batch.first, batch.count});
   LightLists& lists = patches_->lists;
+  std::swap(lists, patches_->uploaded);
   lists.make(lights, objects, trees.nodes(), gbuffer.frustum(), sum.vpls, groups);
   if (sum.merges) lists.mergePasses(mostLights(sum.clampAndBias));
   passesSaved_ = lists.passesSaved();
@@ -173,9 +184,10 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
                      "the light lists of the visible pixels exceed the limit of this driver",
                      "lower vpls, use the technique naive, or use --backend cpu");
   }
-  patches_->ranges.set(lists.ranges());
-  patches_->entries.set(lists.entries());
-  patches_->hardPlaces.set(lists.hardPlaces());
+  const LightLists& before = patches_->uploaded;
+  upload(patches_->ranges, lists.ranges(), before.ranges());
+  upload(patches_->entries, lists.entries(), before.entries());
+  upload(patches_->hardPlaces, lists.hardPlaces(), before.hardPlaces());
 }
 
 void GlLighting::begin(const GlScene& scene, const SumTarget& target, bool unmarked) {
@@ -263,6 +275,10 @@ uint64_t GlLighting::bytes() const {
     bytes += patches_->trees.bytes() + patches_->ranges.bytes() + patches_->entries.bytes();
   }
   return bytes;
+}
+
+uint64_t GlLighting::uploaded() const {
+  return uploadedBefore_ + (patches_ ? patches_->trees.uploaded() + patches_->bytesUploaded : 0);
 }
 
 }  // namespace lamplighter::gl

@@ -29,13 +29,14 @@ class GlLighting {
   // Sets the irradiance to zero, for a G-buffer without a sum.
   void clear(int width, int height);
   // For the last sum (ManyLightsKernels::readInterpolated()).
-  std::vector<uint8_t> readInterpolated() const {
-    return grids_[0].read(pixels_.width, pixels_.height);
+  std::vector<uint8_t> readInterpolated(Waits& waits) const {
+    return grids_[0].read(waits, pixels_.width, pixels_.height);
   }
   // The texture with the irradiance of the last sum, or zeros after clear().
   GLuint irradiance();
 
   uint64_t bytes() const;
+  uint64_t uploaded() const;  // bytes of patches and light lists since construction
 
  private:
   // VPLs that one draw can sum: of one kind, with their maps in one array and their data in one VPL
@@ -49,7 +50,8 @@ class GlLighting {
   // All data by patch, without the VPLs.
   struct Patches {
     GlPatches trees;
-    LightLists lists;
+    LightLists lists, uploaded;  // of this sum, and what the buffers hold
+    uint64_t bytesUploaded = 0;  // of lists
     StorageBuffer<glm::uvec2> ranges;
     StorageBuffer<uint32_t> entries, hardPlaces;
   };
@@ -66,6 +68,8 @@ class GlLighting {
   static Sum makeSum(const GlShadowMaps& maps, const VplBuffer& buffer,
                      std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                      const PatchLights* patches);
+  template <typename T>
+  void upload(StorageBuffer<T>& buffer, std::span<const T> now, std::span<const T> before);
   void takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
                    const PatchLights& lights);
   void zero();
@@ -92,6 +96,7 @@ class GlLighting {
   GlLowResolution low_;
   SampleGrid grids_[2];  // samples of pixels_ and, for quick pictures, samples of these samples
   int mergedPasses_ = 0, passesSaved_ = 0;
+  uint64_t uploadedBefore_ = 0;       // by earlier patches_
   std::unique_ptr<Patches> patches_;  // while sums need them
 };
 

@@ -21,6 +21,7 @@ class GlManyLights final : public ManyLightsKernels {
     ManyLightsCounts counts = counts_;
     counts.mapBytes = maps_.bytes();
     counts.mapsHeld = static_cast<uint64_t>(maps_.held());
+    counts.bytesUploaded = lighting_.uploaded();
     return counts;
   }
 
@@ -66,8 +67,10 @@ class GlManyLights final : public ManyLightsKernels {
     return compose(white, false);
   }
 
-  std::vector<float> readShadowMap(int slot) override { return maps_.read(slot); }
-  std::vector<uint8_t> readInterpolated() override { return lighting_.readInterpolated(); }
+  std::vector<float> readShadowMap(int slot) override { return maps_.read(backend_.waits(), slot); }
+  std::vector<uint8_t> readInterpolated() override {
+    return lighting_.readInterpolated(backend_.waits());
+  }
 
   void reloadShaders(const std::filesystem::path& folder) override {
     maps_.reload(folder, vpls_);

@@ -18,14 +18,15 @@ Buffer makeBuffer(size_t count, size_t size) {
   return buffer;
 }
 
+}  // namespace
+
 template <typename T>
-void write(const Buffer& buffer, uint32_t first, std::span<const T> values) {
+void GlPatches::write(const Buffer& buffer, uint32_t first, std::span<const T> values) {
   if (values.empty()) return;
+  uploaded_ += values.size_bytes();
   glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(first * sizeof(T)),
                        static_cast<GLsizeiptr>(values.size_bytes()), values.data());
 }
-
-}  // namespace
 
 GlPatches::Sizes GlPatches::sizesOf(const RenderScene& scene, const PatchLights& lights,
                                     uint32_t object) {
@@ -43,19 +44,22 @@ GlPatches::Sizes GlPatches::sizesOf(const RenderScene& scene, const PatchLights&
   return n;
 }
 
+// Whether the object has the patches, the tiles and the kind of light that were uploaded.
+bool GlPatches::hasSameTrees(const PatchLights& lights, uint32_t object) const {
+  const Object& o = objects_[object];
+  const bool isLit = lights.prt() != nullptr && lights.prt()->hasTransfer(object);
+  return isLit == (o.size.vertices != 0) && o.patches == lights.patches(object).revision &&
+         (!hasMaps_ || o.tiling == lights.maps()->tiling(object));
+}
+
 void GlPatches::update(const RenderScene& scene, const PatchLights& lights) {
   const bool hasMaps = lights.maps() != nullptr;
-  const auto revisionsOf = [&](uint32_t i) {
-    return std::pair(lights.patches(i).revision, hasMaps ? lights.maps()->revision(i) : Revision());
-  };
   bool resized = objects_.size() != scene.objects.size() || hasMaps_ != hasMaps;
   std::vector<uint32_t> changed;
   for (uint32_t i = 0; i < scene.objects.size() && !resized; ++i) {
-    const Object& o = objects_[i];
-    const bool isLit = lights.prt() != nullptr && lights.prt()->hasTransfer(i);
-    if (isLit == (o.size.vertices != 0) && std::pair(o.patches, o.maps) == revisionsOf(i)) continue;
+    if (hasSameTrees(lights, i)) continue;
     changed.push_back(i);
-    resized = sizesOf(scene, lights, i) != o.size;
+    resized = sizesOf(scene, lights, i) != objects_[i].size;
   }
   if (resized) {
     hasMaps_ = hasMaps;
@@ -77,10 +81,9 @@ void GlPatches::update(const RenderScene& scene, const PatchLights& lights) {
     }
     allocate();
   }
-  for (const uint32_t i : changed) {
-    upload(scene, lights, i);
-    std::tie(objects_[i].patches, objects_[i].maps) = revisionsOf(i);
-  }
+  for (const uint32_t i : changed) upload(scene, lights, i);
+  for (uint32_t i = 0; hasMaps && i < objects_.size(); ++i)
+    if (objects_[i].maps != lights.maps()->revision(i)) uploadTexels(*lights.maps(), i);
   for (uint32_t i = 0; i < objects_.size(); ++i) {
     Object& o = objects_[i];
     if (o.size.vertices == 0 || o.light == lights.prt()->revision(i)) continue;
@@ -151,7 +154,33 @@ void GlPatches::upload(const RenderScene& scene, const PatchLights& lights, uint
   write<shared::PatchNode>(patches_, first.nodes, nodes);
   write<shared::PatchChart>(charts_, first.charts, charts);
   write<shared::PatchTile>(tiles_, first.tiles, tiles);
-  if (hasMaps_) write<vec4>(texels_, first.texels, lights.maps()->texels(object));
+  Object& o = objects_[object];
+  o.patches = patches.revision;
+  o.tiling = hasMaps_ ? lights.maps()->tiling(object) : Revision();
+  o.maps = Revision();
+  o.writes.clear();
+}
+
+// Uploads the texels of tiles that were written since the last upload.
+void GlPatches::uploadTexels(const LightMaps& maps, uint32_t object) {
+  Object& o = objects_[object];
+  const std::span<const LightMapTile> tiles = maps.tiles(object);
+  const std::span<const uint32_t> writes = maps.writes(object);
+  const std::span<const vec4> texels = maps.texels(object);
+  // Without earlier writes all texels are new, also of tiles that were never written.
+  const bool isNew = o.writes.size() != tiles.size();
+  const auto isWritten = [&](size_t t) { return isNew || o.writes[t] != writes[t]; };
+  for (size_t t = 0, next; t < tiles.size(); t = next) {
+    next = t + 1;
+    if (!isWritten(t)) continue;
+    while (next < tiles.size() && isWritten(next)) ++next;
+    const size_t begin = tiles[t].first;
+    const size_t end = next < tiles.size() ? size_t{tiles[next].first} : texels.size();
+    write<vec4>(texels_, o.first.texels + static_cast<uint32_t>(begin),
+                texels.subspan(begin, end - begin));
+  }
+  o.writes.assign(writes.begin(), writes.end());
+  o.maps = maps.revision(object);
 }
 
 void GlPatches::bind() const {

@@ -22,6 +22,7 @@ class GlPatches {
   uint32_t firstNode(uint32_t object) const { return objects_[object].first.nodes; }
   size_t nodes() const { return total_.nodes; }
   uint64_t bytes() const { return bytes_; }
+  uint64_t uploaded() const { return uploaded_; }  // bytes since construction
 
   // Upper bound of light map texels on this device.
   static uint64_t mostTexels();
@@ -34,17 +35,22 @@ class GlPatches {
   };
   struct Object {
     Sizes first, size;
-    Revision patches, maps, light;
+    Revision patches, tiling, maps, light;
+    std::vector<uint32_t> writes;  // by tile, as in LightMaps
   };
   static Sizes sizesOf(const RenderScene& scene, const PatchLights& lights, uint32_t object);
   void allocate();
+  bool hasSameTrees(const PatchLights& lights, uint32_t object) const;
   void upload(const RenderScene& scene, const PatchLights& lights, uint32_t object);
+  void uploadTexels(const LightMaps& maps, uint32_t object);
+  template <typename T>
+  void write(const Buffer& buffer, uint32_t first, std::span<const T> values);
 
   std::vector<Object> objects_;
   Sizes total_;
   bool hasMaps_ = false;
   Buffer roots_, patches_, charts_, tiles_, texels_, vertexLight_;
-  uint64_t bytes_ = 0;
+  uint64_t bytes_ = 0, uploaded_ = 0;
 };
 
 }  // namespace lamplighter::gl

@@ -253,13 +253,13 @@ void GlShadowMaps::drawFace(const GlScene& scene, const shared::Vpl& vpl, const 
                       static_cast<GLsizei>(counts_.size()));
 }
 
-std::vector<float> GlShadowMaps::read(int slot) const {
+std::vector<float> GlShadowMaps::read(Waits& waits, int slot) const {
   const Place at = place(slot);
   if (at.layer == kNone) return {};
   const int side = resolution(at.array);
   std::vector<float> map(static_cast<size_t>(side) * side);
-  glGetTextureSubImage(array(at.array), 0, 0, 0, at.layer, side, side, 1, GL_DEPTH_COMPONENT,
-                       GL_FLOAT, static_cast<GLsizei>(map.size() * sizeof(float)), map.data());
+  waits.readLayer(array(at.array), at.layer, {side, side}, GL_DEPTH_COMPONENT, GL_FLOAT,
+                  map.size() * sizeof(float), map.data());
   if (!slots_[static_cast<size_t>(slot)].isDirectional) {
     for (float& v : map) v *= 1.0f / shared::kShadowDepthUnit;
   }

@@ -23,7 +23,7 @@ class GlShadowMaps {
   void render(const GlScene& scene, std::span<const shared::Vpl> vpls, MapSize size,
               const VplBuffer& buffer);
   void drop(std::span<const int> slots);
-  std::vector<float> read(int slot) const;  // empty: the slot has no map
+  std::vector<float> read(Waits& waits, int slot) const;  // empty: the slot has no map
 
   // The location of a slot's map.
   struct Place {

@@ -39,13 +39,10 @@ bool SampleGrid::resize(int width, int height, int newBlock) {
   return true;
 }
 
-std::vector<uint8_t> SampleGrid::read(int width, int height) const {
+std::vector<uint8_t> SampleGrid::read(Waits& waits, int width, int height) const {
   if (!cells) return {};
   std::vector<uint8_t> values(static_cast<size_t>(columns()) * static_cast<size_t>(rows()));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTextureImage(cells.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE,
-                    static_cast<GLsizei>(values.size()), values.data());
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  waits.readTexture(cells.name(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, values.size(), values.data());
   std::vector<uint8_t> pixels;
   pixels.reserve(static_cast<size_t>(width) * static_cast<size_t>(height));
   for (int y = 0; y < height; ++y)

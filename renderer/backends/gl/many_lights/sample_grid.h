@@ -7,6 +7,7 @@
 
 #include "renderer/backends/gl/many_lights/sum_target.h"
 #include "renderer/backends/gl/shading_points.h"
+#include "renderer/gl/waits.h"
 
 namespace lamplighter::gl {
 
@@ -23,7 +24,7 @@ struct SampleGrid {
   int columns() const { return sums.width - 1; }  // number of cells per row
   int rows() const { return sums.height - 1; }
   // By pixel of a picture of that size, 1 if it is interpolated; empty: there are no cells.
-  std::vector<uint8_t> read(int width, int height) const;
+  std::vector<uint8_t> read(Waits& waits, int width, int height) const;
   uint64_t bytes() const;
 };
 
