@@ -12,6 +12,7 @@ namespace lamplighter::cpu {
 namespace {
 
 constexpr float kMostSum = 0x1p30f;  // units
+constexpr size_t kManyLights = 1024;
 
 // With a clamp below this distance [m], a light can give a point next to it far more than any other
 // point. A unit for the sum of such maxima would be too coarse.
@@ -70,6 +71,8 @@ float mostOfPoints(std::span<const LightRecord> lights, float clampDistance2) {
 }
 
 }  // namespace
+
+bool needFineSums(std::span<const LightRecord> lights) { return lights.size() > kManyLights; }
 
 // The squares of a directional light do not overlap, so only one square per direction counts.
 float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2) {

@@ -41,10 +41,14 @@ std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
 }
 
 // Converts eight sums from units to irradiance.
-void scalePacket(const int32_t* units, float unit, float* to) {
+// `fine`: the second part of the sums, or null.
+void scalePacket(const int32_t* units, const int32_t* fine, float unit, float* to) {
   const hn::FixedTag<float, kLanes> tag;
   const hn::FixedTag<int32_t, kLanes> intTag;
-  const auto values = hn::ConvertTo(tag, hn::LoadU(intTag, units));
+  auto values = hn::ConvertTo(tag, hn::LoadU(intTag, units));
+  if (fine != nullptr)
+    values = hn::Add(values, hn::Mul(hn::Set(tag, 1.0f / FixedSums::kFinePerUnit),
+                                     hn::ConvertTo(tag, hn::LoadU(intTag, fine))));
   hn::StoreU(hn::Mul(hn::Set(tag, unit), values), tag, to);
 }
 
@@ -133,6 +137,11 @@ void IrradianceAccumulator::compareWithLast(const Frame& frame) {
     tiles_.assign(tiles, {});
     for (auto* v : {&sums_.r, &sums_.g, &sums_.b}) v->assign(g.px.size(), 0);
     for (auto* v : {&red_, &green_, &blue_}) v->assign(g.px.size(), 0.0f);
+  }
+  // Packets are cleared before they are summed from scratch.
+  for (auto* v : {&sums_.fineR, &sums_.fineG, &sums_.fineB}) {
+    if (constants_.isFine) v->resize(g.px.size());
+    if (!constants_.isFine && !v->empty()) *v = {};
   }
   if (!knowsPlaces_ || (hasPatches && frame.patches->slots() != table_.slots())) knowsSums_ = false;
   for (size_t i = 0; i < tiles; ++i) {
@@ -225,6 +234,7 @@ SumCounts IrradianceAccumulator::update(const GBuffer& gbuffer, std::span<const 
                                         std::span<const uint32_t> wanted,
                                         std::span<const uint32_t> leftOutBy) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
+  constants.isFine = needFineSums(lights);
   Frame frame{gbuffer, bySlot(lights), patches, wanted, leftOutBy, {}, {}, {}, {}, {}};
   for (const LightRecord& light : lights) frame.all.push_back(&light);
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
@@ -277,6 +287,7 @@ SumCounts IrradianceAccumulator::update(const GBuffer& gbuffer, std::span<const 
 bool IrradianceAccumulator::isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                                  SumConstants constants, const PatchLights* patches) const {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
+  constants.isFine = needFineSums(lights);
   if (!knowsSums_ || !oldMaps_.empty() || constants != constants_ ||
       hasPatches_ != (patches != nullptr) || !std::ranges::equal(lights, lights_) ||
       mapRevisions_ != revisionsOf(patches ? patches->maps() : nullptr) ||
@@ -306,6 +317,8 @@ void IrradianceAccumulator::clearPackets(int tile, uint32_t packets) {
   for (; packets != 0; packets &= packets - 1) {
     const size_t at = first + static_cast<size_t>(std::countr_zero(packets)) * kLanes;
     for (auto* v : {&sums_.r, &sums_.g, &sums_.b}) std::fill_n(&(*v)[at], kLanes, 0);
+    if (!constants_.isFine) continue;
+    for (auto* v : {&sums_.fineR, &sums_.fineG, &sums_.fineB}) std::fill_n(&(*v)[at], kLanes, 0);
   }
 }
 
@@ -381,9 +394,12 @@ void IrradianceAccumulator::finishTile(const Frame& frame, int tile) {
   const Tile& t = tiles_[static_cast<size_t>(tile)];
   for (uint32_t packets = t.wanted; packets != 0; packets &= packets - 1) {
     const size_t packet = first + static_cast<size_t>(std::countr_zero(packets)) * kLanes;
-    scalePacket(&sums_.r[packet], unit, &red_[packet]);
-    scalePacket(&sums_.g[packet], unit, &green_[packet]);
-    scalePacket(&sums_.b[packet], unit, &blue_[packet]);
+    const auto fine = [&](const std::vector<int32_t>& sums) {
+      return constants_.isFine ? &sums[packet] : nullptr;
+    };
+    scalePacket(&sums_.r[packet], fine(sums_.fineR), unit, &red_[packet]);
+    scalePacket(&sums_.g[packet], fine(sums_.fineG), unit, &green_[packet]);
+    scalePacket(&sums_.b[packet], fine(sums_.fineB), unit, &blue_[packet]);
   }
   if (!hasMaps_ && !hasTransfer_) return;
   t.places.forEachMapped(t.wanted, [&](size_t packet, uint8_t lanes, const Place& place) {
@@ -444,7 +460,8 @@ IrradianceAccumulator::HardShadows IrradianceAccumulator::findHardShadows() cons
 }
 
 size_t IrradianceAccumulator::bytes() const {
-  size_t bytes = sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes();
+  size_t bytes = sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) +
+                 sums_.fineR.size() * 3 * sizeof(int32_t) + table_.bytes();
   for (const Tile& tile : tiles_) bytes += tile.lit.bytes();
   for (const auto& [slot, old] : oldMaps_) bytes += old.texels.size() * sizeof(float);
   return bytes;

@@ -30,7 +30,9 @@ class LightAdder {
         table_(table),
         leftOutBy_(leftOutBy),
         constants_(constants),
-        counts_(counts) {}
+        counts_(counts) {
+    if (constants.isFine) block_.sumFinely();
+  }
 
   bool hasRoomFor(uint32_t packets) const;
   // lit: the cache that records where lights are added; null: not recorded.

@@ -25,6 +25,30 @@ HWY_INLINE void addTo(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& u
   add(sum[2], hn::Mul(weight, units.z));
 }
 
+// The same for sums with a second part. Negating the units negates both parts exactly.
+HWY_INLINE void addTo(int32_t (&sum)[3][kLanes], int32_t (&fine)[3][kLanes], Floats weight,
+                      const Vector3& units) {
+  const auto add = [&](int32_t* to, int32_t* rest, Floats share) {
+    const Ints whole = roundToInts(share);
+    hn::Store(hn::Add(hn::Load(IntTag(), to), whole), IntTag(), to);
+    const Floats left = hn::Sub(share, hn::ConvertTo(kTag, whole));
+    const Ints parts = roundToInts(hn::Mul(left, wide(FixedSums::kFinePerUnit)));
+    hn::Store(hn::Add(hn::Load(IntTag(), rest), parts), IntTag(), rest);
+  };
+  add(sum[0], fine[0], hn::Mul(weight, units.x));
+  add(sum[1], fine[1], hn::Mul(weight, units.y));
+  add(sum[2], fine[2], hn::Mul(weight, units.z));
+}
+
+// Adds to the sums of packet i of the block.
+template <bool kFine>
+HWY_INLINE void addTo(PacketBlock& block, size_t i, Floats weight, const Vector3& units) {
+  if constexpr (kFine)
+    addTo(block.at(i).sum, block.fine(i), weight, units);
+  else
+    addTo(block.at(i).sum, weight, units);
+}
+
 // Replaces the old contribution by the new one.
 HWY_INLINE void replaceIn(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& now,
                           const Vector3& before) {
@@ -35,6 +59,19 @@ HWY_INLINE void replaceIn(int32_t (&sum)[3][kLanes], Floats weight, const Vector
   replace(sum[0], now.x, before.x);
   replace(sum[1], now.y, before.y);
   replace(sum[2], now.z, before.z);
+}
+
+template <bool kFine>
+HWY_INLINE void replaceIn(PacketBlock& block, size_t i, Floats weight, const Vector3& now,
+                          const Vector3& before) {
+  if constexpr (kFine) {
+    const auto negative = [](Floats v) { return hn::Neg(v); };
+    addTo(block.at(i).sum, block.fine(i), weight, now);
+    addTo(block.at(i).sum, block.fine(i), weight,
+          Vector3{negative(before.x), negative(before.y), negative(before.z)});
+  } else {
+    replaceIn(block.at(i).sum, weight, now, before);
+  }
 }
 
 // The unshadowed irradiance [1/m² of its intensity]. v: from the light to the point; z: its height
@@ -68,7 +105,7 @@ HWY_INLINE Vector3 fromLight(const Vector3& p, const SimdLight& light) {
 // kUse: add, addShadowed or subtractShadow. For subtractShadow it only finds the lanes, without
 // branches: half of the packets of a partly hidden patch have some, so a branch would often be
 // mispredicted. addMasked() then sums them.
-template <LightRecord::Kind kKind, ShadowMode kUse>
+template <LightRecord::Kind kKind, ShadowMode kUse, bool kFine>
 void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
               const LightRecord& record, const SumConstants& constants, ShadowMasks& lit) {
   constexpr bool kLooksUp = kUse != ShadowMode::add, kSums = kUse != ShadowMode::subtractShadow;
@@ -124,12 +161,12 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
     if constexpr (kLooksUp) lit[k] = static_cast<uint8_t>(bitsOf(reached));
     if constexpr (kSums) {
       const Floats weight = hn::IfThenElseZero(reached, weightOf<kKind>(light, c, v, z, s));
-      addTo(packet.sum, hn::Min(weight, light.mostWeight), light.units);
+      addTo<kFine>(block, i, hn::Min(weight, light.mostWeight), light.units);
     }
   }
 }
 
-// Calls add(sum, weight) for the lanes.
+// Calls add(i, weight) for packets i of the block, with the weights of the lanes.
 template <LightRecord::Kind kKind, typename F>
 void forEachLit(PacketBlock& block, const PacketList& packets, const SimdLight& light,
                 const SumConstants& constants, const ShadowMasks& lit, F&& add) {
@@ -142,8 +179,8 @@ void forEachLit(PacketBlock& block, const PacketList& packets, const SimdLight& 
     count += lit[k] != 0 ? 1 : 0;
   }
   for (size_t n = 0; n < count; ++n) {
-    const size_t k = some[n];
-    PacketBlock::Packet& packet = block.at(packets.packet(k));
+    const size_t k = some[n], i = packets.packet(k);
+    const PacketBlock::Packet& packet = block.at(i);
     const Vector3 v = fromLight(load(packet.position), light);
     const Vector3 shading = load(packet.shading);
     Floats s, z = hn::Zero(kTag);
@@ -155,24 +192,23 @@ void forEachLit(PacketBlock& block, const PacketList& packets, const SimdLight& 
     }
     const Floats weight =
         hn::IfThenElseZero(hn::LoadMaskBits(kTag, &lit[k]), weightOf<kKind>(light, c, v, z, s));
-    add(packet.sum, hn::Min(weight, light.mostWeight));
+    add(i, hn::Min(weight, light.mostWeight));
   }
 }
 
-template <LightRecord::Kind kKind>
+template <LightRecord::Kind kKind, bool kFine>
 void addMasked(PacketBlock& block, const PacketList& packets, bool isNegative,
                const LightRecord& record, const SumConstants& constants, const ShadowMasks& lit) {
   const SimdLight light(record, isNegative, constants);
-  forEachLit<kKind>(
-      block, packets, light, constants, lit,
-      [&](int32_t(&sum)[3][kLanes], Floats weight) { addTo(sum, weight, light.units); });
+  forEachLit<kKind>(block, packets, light, constants, lit,
+                    [&](size_t i, Floats weight) { addTo<kFine>(block, i, weight, light.units); });
 }
 
 bool isNegative(ShadowMode use, Sign sign) {
   return (sign == Sign::takeAway) != (use == ShadowMode::subtractShadow);
 }
 
-template <LightRecord::Kind kKind>
+template <LightRecord::Kind kKind, bool kFine>
 void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
               const LightRecord& light, const SumConstants& constants, ShadowMasks& lit) {
   const bool negative = isNegative(use, sign);
@@ -180,27 +216,34 @@ void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sig
     case ShadowMode::skip:
       break;
     case ShadowMode::add:
-      return addLight<kKind, ShadowMode::add>(block, packets, negative, light, constants, lit);
+      return addLight<kKind, ShadowMode::add, kFine>(block, packets, negative, light, constants,
+                                                     lit);
     case ShadowMode::addShadowed:
-      return addLight<kKind, ShadowMode::addShadowed>(block, packets, negative, light, constants,
-                                                      lit);
+      return addLight<kKind, ShadowMode::addShadowed, kFine>(block, packets, negative, light,
+                                                             constants, lit);
     case ShadowMode::subtractShadow:
-      addLight<kKind, ShadowMode::subtractShadow>(block, packets, negative, light, constants, lit);
-      return addMasked<kKind>(block, packets, negative, light, constants, lit);
+      addLight<kKind, ShadowMode::subtractShadow, kFine>(block, packets, negative, light, constants,
+                                                         lit);
+      return addMasked<kKind, kFine>(block, packets, negative, light, constants, lit);
   }
 }
 
-// Calls f.operator()<kind>().
-template <typename F>
+// Calls f.operator()<kind, isFine>().
+template <bool kFine, typename F>
 void byKind(LightRecord::Kind kind, F&& f) {
   switch (kind) {
     case LightRecord::Kind::cosine:
-      return f.template operator()<LightRecord::Kind::cosine>();
+      return f.template operator()<LightRecord::Kind::cosine, kFine>();
     case LightRecord::Kind::uniform:
-      return f.template operator()<LightRecord::Kind::uniform>();
+      return f.template operator()<LightRecord::Kind::uniform, kFine>();
     case LightRecord::Kind::directional:
-      return f.template operator()<LightRecord::Kind::directional>();
+      return f.template operator()<LightRecord::Kind::directional, kFine>();
   }
+}
+
+template <typename F>
+void dispatch(LightRecord::Kind kind, const SumConstants& constants, F&& f) {
+  constants.isFine ? byKind<true>(kind, f) : byKind<false>(kind, f);
 }
 
 }  // namespace
@@ -244,16 +287,16 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolu
 void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
               const LightRecord& light, const SumConstants& constants, ShadowMasks& lit) {
   if (packets.count() == 0) return;
-  byKind(light.kind, [&]<LightRecord::Kind kKind>() {
-    addLight<kKind>(block, packets, use, sign, light, constants, lit);
+  dispatch(light.kind, constants, [&]<LightRecord::Kind kKind, bool kFine>() {
+    addLight<kKind, kFine>(block, packets, use, sign, light, constants, lit);
   });
 }
 
 void addMasked(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
                const LightRecord& light, const SumConstants& constants, const ShadowMasks& lit) {
   if (packets.count() == 0) return;
-  byKind(light.kind, [&]<LightRecord::Kind kKind>() {
-    addMasked<kKind>(block, packets, isNegative(use, sign), light, constants, lit);
+  dispatch(light.kind, constants, [&]<LightRecord::Kind kKind, bool kFine>() {
+    addMasked<kKind, kFine>(block, packets, isNegative(use, sign), light, constants, lit);
   });
 }
 
@@ -263,11 +306,10 @@ void replaceMasked(PacketBlock& block, const PacketList& packets, ShadowMode use
   if (packets.count() == 0) return;
   const bool negative = isNegative(use, Sign::add);
   const SimdLight light(now, negative, constants), was(before, negative, constants);
-  byKind(now.kind, [&]<LightRecord::Kind kKind>() {
-    forEachLit<kKind>(block, packets, light, constants, lit,
-                      [&](int32_t(&sum)[3][kLanes], Floats weight) {
-                        replaceIn(sum, weight, light.units, was.units);
-                      });
+  dispatch(now.kind, constants, [&]<LightRecord::Kind kKind, bool kFine>() {
+    forEachLit<kKind>(block, packets, light, constants, lit, [&](size_t i, Floats weight) {
+      replaceIn<kFine>(block, i, weight, light.units, was.units);
+    });
   });
 }
 

@@ -3,7 +3,9 @@
 //
 // Irradiance is summed in integers: each contribution is rounded to a multiple of a unit. So lights
 // can be added and subtracted in any order, and the sum has the same bits as one computed from
-// scratch (irradiance_accumulator.h).
+// scratch (irradiance_accumulator.h). Where there are many lights, what the rounding of each leaves
+// is summed in a second integer: the light of a candle in a dark room beside a sunlit one can be
+// less than a unit for each of thousands of light samples.
 #pragma once
 
 #include <array>
@@ -44,6 +46,7 @@ struct SumConstants {
   float clampDistance2 = 0.0f;  // d0² [m²]
   float bias = 0.0f;
   float unitsPerIrradiance = 1.0f;  // a power of two [m²/W]
+  bool isFine = false;              // sums have a second part, in FixedSums::kFinePerUnit of a unit
   bool operator==(const SumConstants&) const = default;
 };
 

@@ -25,6 +25,7 @@ void PacketBlock::add(const GBuffer& g, size_t first) {
   copy(g.sy, p.shading[1]);
   copy(g.sz, p.shading[2]);
   for (auto& channel : p.sum) std::fill_n(channel, kLanes, 0);
+  if (isFine_) fine_.push_back({});
   first_.push_back(first);
   const size_t k = packets_.size() - 1;
   const bool isFlat = g.isFlat[first / kLanes] != 0;
@@ -49,6 +50,11 @@ void PacketBlock::addTo(FixedSums& sums) const {
     for (int c = 0; c < 3; ++c)
       for (size_t lane = 0; lane < kLanes; ++lane)
         (*channels[c])[first_[k] + lane] += packets_[k].sum[c][lane];
+  std::vector<int32_t>* const fine[] = {&sums.fineR, &sums.fineG, &sums.fineB};
+  for (size_t k = 0; k < fine_.size(); ++k)
+    for (int c = 0; c < 3; ++c)
+      for (size_t lane = 0; lane < kLanes; ++lane)
+        (*fine[c])[first_[k] + lane] += fine_[k].sum[c][lane];
 }
 
 }  // namespace lamplighter::cpu

@@ -12,7 +12,12 @@ namespace lamplighter::cpu {
 
 // E of each pixel in fixed-point units; structure of arrays over the whole G-buffer.
 struct FixedSums {
+  // Of a unit. What the rounding of 2¹⁷ lights leaves fits into 32 bits.
+  static constexpr float kFinePerUnit = 0x1p14f;
+
   std::vector<int32_t> r, g, b;
+  // What rounding left, in kFinePerUnit of a unit. Empty if it is not summed.
+  std::vector<int32_t> fineR, fineG, fineB;
 };
 
 class PacketBlock {
@@ -36,6 +41,11 @@ class PacketBlock {
   size_t first(size_t k) const { return first_[k]; }
   const Packet& at(size_t k) const { return packets_[k]; }
   Packet& at(size_t k) { return packets_[k]; }
+  // The second part of the sums of a packet, by channel, then lane. Only after sumFinely().
+  using Fine = int32_t[3][kLanes];
+  Fine& fine(size_t k) { return fine_[k].sum; }
+  // Call before the first packet is added: sums have a second part.
+  void sumFinely() { isFine_ = true; }
   // Geometric normals by coordinate and lane, if the packet is not flat; otherwise null.
   const float* geometric(size_t k) const {
     return geometric_[k] == kFlat ? nullptr : &normals_[geometric_[k]];
@@ -48,7 +58,13 @@ class PacketBlock {
  private:
   static constexpr uint32_t kFlat = ~uint32_t{0};
 
+  struct alignas(32) FinePacket {
+    int32_t sum[3][kLanes];
+  };
+
+  bool isFine_ = false;
   std::vector<Packet> packets_;
+  std::vector<FinePacket> fine_;  // by packet; empty if sums have one part
   std::vector<size_t> first_;
   std::vector<uint32_t> geometric_;  // index into normals_
   std::vector<uint8_t> plane_;
