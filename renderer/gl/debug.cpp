@@ -6,8 +6,20 @@
 
 namespace lamplighter::gl {
 
-void takeErrors() {
-  while (const GLenum error = glGetError()) {
+ErrorSource errorsOfContext() {
+  return {[] { return glGetError(); }, [] { return glGetGraphicsResetStatus(); }};
+}
+
+void takeErrors(const ErrorSource& source) {
+  switch (source.reset()) {
+    case GL_NO_ERROR:
+      break;
+    case GL_GUILTY_CONTEXT_RESET:
+      throw DeviceError("OpenGL: the driver has reset the graphics device because a frame failed");
+    default:
+      throw DeviceError("OpenGL: the driver has reset the graphics device");
+  }
+  while (const GLenum error = source.error()) {
     if (error == GL_OUT_OF_MEMORY)
       throw DeviceError("OpenGL: the graphics device is out of memory; lower the settings");
     if (error == GL_CONTEXT_LOST)

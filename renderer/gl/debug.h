@@ -1,6 +1,7 @@
 // Driver messages from KHR_debug (core since OpenGL 4.3).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,16 @@
 
 namespace lamplighter::gl {
 
-// Discards the errors that the current context has recorded. Throws DeviceError if one of them is
-// that the device has no memory left or was reset.
-void takeErrors();
+// Where errors of a context are read.
+struct ErrorSource {
+  std::function<GLenum()> error;  // as glGetError()
+  std::function<GLenum()> reset;  // as glGetGraphicsResetStatus()
+};
+ErrorSource errorsOfContext();  // of the current one
+
+// Discards the errors that a context has recorded. Throws DeviceError if one of them is that the
+// device has no memory left, or if the device was reset, by which the context lost its content.
+void takeErrors(const ErrorSource& source = errorsOfContext());
 
 // Receives the messages of the current context during its lifetime. The context must also be
 // current when this is destroyed. Errors are kept and, in debug builds, logged. Only a debug

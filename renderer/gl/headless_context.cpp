@@ -65,16 +65,23 @@ EGLContext makeContext(EGLDisplay display, bool debug) {
       return EGL_NO_CONTEXT;
     }
   }
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                               4,
-                               EGL_CONTEXT_MINOR_VERSION,
-                               5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_OPENGL_DEBUG,
-                               debug ? EGL_TRUE : EGL_FALSE,
-                               EGL_NONE};
-  return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+  const std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                          4,
+                                          EGL_CONTEXT_MINOR_VERSION,
+                                          5,
+                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                          EGL_CONTEXT_OPENGL_DEBUG,
+                                          debug ? EGL_TRUE : EGL_FALSE,
+                                          EGL_NONE};
+  // Tells of resets of the device (takeErrors()), where the driver can.
+  std::vector<EGLint> robust = attributes;
+  robust.insert(robust.end() - 1,
+                {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, robust.data());
+  return context != EGL_NO_CONTEXT
+             ? context
+             : eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
 }
 
 }  // namespace
