@@ -1,10 +1,14 @@
 #!/usr/bin/env bash
 # How long shared levels, seen from inside, take to settle, and to follow a lamp that is moved, as
-# rows of Markdown tables, at default settings on the cpu backend.
-# usage: tests/tools/levels.sh LAMPLIGHTER   (./dev levels; some minutes)
+# rows of Markdown tables, at default settings on the cpu backend. Fails if a level needs more than
+# 2 GiB of memory.
+# usage: tests/tools/levels.sh LAMPLIGHTER [SIZE of the settled pictures, default 480x270]
+# (./dev levels; some minutes)
 set -eu
 cd "$(dirname "$0")/../.."
 program=$(realpath "$1")
+size=${2:-480x270}
+most_memory=$((2 << 30))
 scenes=$(realpath ../shared/scenes 2>/dev/null) || { echo "levels: there is no ../shared/scenes" >&2; exit 2; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -26,8 +30,10 @@ with_camera() {
 settled() {  # settled SCENE ARGUMENTS...: seconds; of them visibility and finer maps; tests
   local scene=$1
   shift
-  "$program" render "$scene" -o "$work/a.exr" --backend cpu --size 480x270 --stats "$work/stats.json" \
+  "$program" render "$scene" -o "$work/a.exr" --backend cpu --size "$size" --stats "$work/stats.json" \
     "$@" >/dev/null 2>&1
+  jq -r --argjson most "$most_memory" 'select(.peak_memory_bytes > $most) | .scene' \
+    "$work/stats.json" >>"$work/too_large"
   jq -r '[.seconds.total, .stages.visibility, .stages["finer maps"], .visibility_tests / 1e6,
     .light_map_bytes / 1048576, .peak_memory_bytes / 1048576] | map(. * 100 | round / 100) | join(" | ")' \
     "$work/stats.json"
@@ -71,3 +77,4 @@ echo
 echo "| lamp moved | open: first frame s | settled | moved: first frame | 10% | settled |"
 echo "| --- | --- | --- | --- | --- | --- |"
 levels lamp_moved
+[ ! -s "$work/too_large" ] || { echo "levels: more than 2 GiB: $(sort -u "$work/too_large" | xargs)" >&2; exit 1; }
