@@ -52,14 +52,14 @@ void dropProfile(Session& s, const fs::path& file) {
   if (!place) place = s.surfaceAhead();
   if (!place) throw InputError(name, "there is no surface for a new light", "point at a surface");
   Node n = newLight("point", glm::length(place->position - s.view().eye),
-                    s.document().render.exposureEv);
+                    s.document().render.exposureEv, s.unit());
   n.id = s.editing().newNodeId();
   n.name = file.stem().string() + " " + std::to_string(n.id);
   n.punctual = withProfile(scene, n, profile);
   // The light's axis, along which downlights shine, is its −Z. It must point away from the surface.
   Scene with = scene;
   with.nodes.push_back(n);
-  if (const auto local = placedOn(with, n.id, *place)) n.local = *local;
+  if (const auto local = placedOn(with, n.id, *place, s.unit())) n.local = *local;
   addNodes(s.editing(), "Add " + n.name, {n});
   s.select({n.id});
   s.setStatus("Added a light with the profile " + name);

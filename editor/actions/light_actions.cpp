@@ -18,12 +18,12 @@ namespace {
 // Adds a light between the eye and the point that the eye looks at. It faces down.
 void addLight(Session& s, const std::string& kind) {
   const View& view = s.view();
-  const float sceneRadius = std::max(s.renderer().scene().bounds.radius(), 0.1f);
+  const float sceneRadius = std::max(s.bounds().radius(), 0.1f * s.unit());
   float distance = 0.5f * sceneRadius;
   if (const auto ahead = s.surfaceAhead())
     distance = std::min(distance, 0.6f * glm::length(ahead->position - view.eye));
 
-  Node n = newLight(kind, distance, s.document().render.exposureEv);
+  Node n = newLight(kind, distance, s.document().render.exposureEv, s.unit());
   n.id = s.editing().newNodeId();
   n.local.translation = view.eye + distance * view.forward();
   n.name = kind + " light " + std::to_string(n.id);

@@ -39,10 +39,10 @@ void toggleWorkLight(Session& s) {
     s.lighting().workLight = 0.0f;
     return;
   }
-  float distance = 0.5f * std::max(s.renderScene().bounds.radius(), 0.1f);
+  float distance = 0.5f * std::max(s.bounds().radius(), 0.1f * s.unit());
   if (const auto ahead = s.surfaceAhead()) distance = glm::length(ahead->position - s.view().eye);
-  s.lighting().workLight =
-      workLightIntensity(std::clamp(distance, 0.2f, 100.0f), s.document().render.exposureEv);
+  s.lighting().workLight = workLightIntensity(
+      std::clamp(distance, 0.2f * s.unit(), 100.0f * s.unit()), s.document().render.exposureEv);
 }
 
 }  // namespace

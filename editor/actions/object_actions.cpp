@@ -28,7 +28,7 @@ void drop(Session& s) {
   for (const Node* n = &active; n != nullptr; n = scene.find(n->parent)) {
     if (std::find(roots.begin(), roots.end(), n->id) != roots.end()) leader = n->id;
   }
-  const auto local = placedOn(scene, leader, {place->position, place->normal});
+  const auto local = placedOn(scene, leader, {place->position, place->normal}, s.unit());
   if (!local) {
     throw InputError(active.name, "has a parent with a scale of 0",
                      "give the parent a scale other than 0");

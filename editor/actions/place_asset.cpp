@@ -25,7 +25,7 @@ void placeAsset(Session& s, const std::filesystem::path& file) {
   Transaction edit = s.editing().begin("Place " + name);
   add(edit, std::move(pasting));
   if (const auto place = s.surfaceAhead()) {
-    if (const auto local = placedOn(s.document().scene, root, *place))
+    if (const auto local = placedOn(s.document().scene, root, *place, s.unit()))
       edit.node(root).local = *local;
   }
   edit.commit();

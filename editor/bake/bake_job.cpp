@@ -12,6 +12,7 @@
 #include "renderer/bake/second_uvs.h"
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"
+#include "renderer/frame/world.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
@@ -119,8 +120,9 @@ void writeScene(const Scene& scene, const RenderScene& render, const LightMapAtl
     const NodeId id = render.objects[c.object].node;
     if (id == last) continue;
     last = id;
-    j["nodes"].push_back(
-        {{"name", scene.find(id)->name}, {"page", c.page}, {"texels_per_metre", c.texelsPerMetre}});
+    j["nodes"].push_back({{"name", scene.find(id)->name},
+                          {"page", c.page},
+                          {"texels_per_metre", c.texelsPerMetre / render.unit}});
   }
   report.files.push_back(o.output / (o.name + "-light.json"));
   writeFile(report.files.back(), j.dump(2) + "\n");
@@ -129,8 +131,9 @@ void writeScene(const Scene& scene, const RenderScene& render, const LightMapAtl
 }  // namespace
 
 BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress& progress) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  World world;
+  world.update(scene, SceneChanges::all());
+  const RenderScene& render = world.scene();
   const LightMapAtlas atlas = makeAtlas(render, o.atlas);
   if (atlas.charts.empty())
     throw InputError(o.name, "has no surface that can have a light map",
@@ -153,8 +156,7 @@ BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress&
       if (o.shard > 0 && tile.number % o.shards != o.shard - 1) continue;
       parts.has(tile) ? void(++report.taken) : open.push_back(&tile);
     }
-    const RayCaster rays(render);
-    const BakedLight light(render, rays, o.light);
+    const BakedLight light(render, *world.rays(), o.light);
     for (const BakeTile* tile : open) {
       parts.write(*tile, find(*tile, light, o.atlas.pageSize));
       ++report.found;

@@ -196,17 +196,18 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   } else {
     const Inspection inspection = renderer.inspect();
     const float ev = exposureOf(o.exposure, image);
+    const View viewInUnits = renderer.world().viewOf(view);
     ViewPicture picture;
     if (isRadiance(debugView))
       picture.image = toneMap(image, ev);
     else
-      picture = drawView(debugView, subjectOf(renderer, view, inspection, debugView, o.viewVpl, ev,
-                                              *out.radiance));
+      picture = drawView(debugView, subjectOf(renderer, viewInUnits, inspection, debugView,
+                                              o.viewVpl, ev, *out.radiance));
     if (!picture.problem.empty())
       throw InputError("--view " + o.view, picture.problem, "choose another view or sample");
     if (o.marks) {
       Overlay marks;
-      drawVpls(marks, view, inspection, *renderer.rays(),
+      drawVpls(marks, viewInUnits, inspection, *renderer.rays(),
                needsLightSample(debugView) ? o.viewVpl : kNone);
       drawOverlay(picture.image, marks, nullptr);
     }

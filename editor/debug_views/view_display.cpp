@@ -59,8 +59,9 @@ void ViewDisplay::update(FrameRenderer& renderer, RadianceImage& radiance, const
           chosenLight(inspection)};
   if (picture_ && !changed && key == key_) return;
   key_ = std::move(key);
+  const View view = renderer.world().viewOf(camera);
   ViewSubject subject{
-      renderer.scene(),    *renderer.rays(), camera,     inspection,  std::max(key_.chosen, 0),
+      renderer.scene(),    *renderer.rays(), view,       inspection,  std::max(key_.chosen, 0),
       settings.exposureEv, toneMapper_,      key_.light, falseColour_};
   takeFromBackend(view_, renderer.backend(), radiance, subject);
   picture_ = std::make_shared<ViewPicture>(drawView(view_, subject));
@@ -84,20 +85,22 @@ std::string ViewDisplay::viewText() const {
   return picture_ && !picture_->problem.empty() ? label + ": " + picture_->problem : label;
 }
 
-std::string ViewDisplay::vplText(const Scene& scene, const Inspection& inspection) const {
+std::string ViewDisplay::vplText(const Scene& scene, const Inspection& inspection,
+                                 float unit) const {
   const int index = chosen(inspection);
   if (index == kNone ||
       (!showsVpls_ && view_ != DebugView::occlusion && view_ != DebugView::shadowMap))
     return "";
   const LightSample& light = inspection.lights[static_cast<size_t>(index)];
   const Node* node = scene.find(light.id.light);
-  const vec3 intensity(light.vpl.intensity);
+  const bool isParallel = light.vpl.position.w == shared::kVplDirectional;
+  const vec3 intensity = (isParallel ? 1.0f : unit * unit) * vec3(light.vpl.intensity);
   std::string text = fmt::format("VPL {} of {}", index, inspection.lights.size());
   if (node != nullptr) text += fmt::format(", {}", node->name.empty() ? "unnamed" : node->name);
   text +=
       light.id.bounce == 0 ? std::string(", direct") : fmt::format(", bounce {}", light.id.bounce);
   text += fmt::format(", {:.3g} {}", std::max({intensity.r, intensity.g, intensity.b}),
-                      light.vpl.position.w == shared::kVplDirectional ? "W/m\u00b2" : "W/sr");
+                      isParallel ? "W/m\u00b2" : "W/sr");
   if (light.isStale)
     text +=
         fmt::format(", waits {} frame{}", light.framesWaiting, light.framesWaiting == 1 ? "" : "s");

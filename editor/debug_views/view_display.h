@@ -56,7 +56,8 @@ class ViewDisplay {
   // Text for the status line: the view, the reason if it shows nothing, and the chosen light sample
   // if the view shows one. "": no text.
   std::string viewText() const;
-  std::string vplText(const Scene& scene, const Inspection& inspection) const;
+  // `unit`: of the inspection [m].
+  std::string vplText(const Scene& scene, const Inspection& inspection, float unit) const;
 
  private:
   struct Key {

@@ -12,7 +12,8 @@ namespace lamplighter {
 // Discs mark samples on lights, diamonds bounces, and squares the points that parallel light hits.
 // Each mark has the colour of its light and shows the normal. A ring marks the samples that wait
 // for an update, a larger ring the chosen one (kNone: none). Marks behind surfaces are faint.
-// Points of the method are triangles, links are lines that are fainter the less they carry.
+// Points of the method are triangles, links are lines that are fainter the less they carry. Views
+// are in the unit of the scene, as are the inspection and the rays.
 void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
               const RayCaster& rays, int chosen);
 

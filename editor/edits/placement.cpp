@@ -7,7 +7,7 @@ namespace lamplighter {
 
 namespace {
 
-constexpr float kLift = 0.01f;  // m: what a light is kept off, so that it is not hidden in it
+constexpr float kLift = 0.01f;  // units: what a light is kept off, so that it is not hidden in it
 
 // How far the node's area light reaches along −n from its own origin, in metres: the support
 // function of its shape, with the node's scale and shear.
@@ -41,7 +41,8 @@ bool hasVolume(const mat4& m) {
   return sides > 0.0f && std::abs(glm::determinant(a)) > 1e-6f * sides;
 }
 
-float standOff(const Scene& scene, NodeId id, const vec3& n) {
+float standOff(const Scene& scene, NodeId id, const vec3& n, float unit) {
+  const float lift = kLift * unit;
   const std::vector<mat4> world = worldMatrices(scene);
   const vec3 origin = vec3(worldMatrix(scene, id)[3]);
   float lowest = std::numeric_limits<float>::infinity();
@@ -54,8 +55,8 @@ float standOff(const Scene& scene, NodeId id, const vec3& n) {
     if (!mine) continue;
     const float height = glm::dot(vec3(world[i][3]) - origin, n);
     if (node.area)
-      lowest = std::min(lowest, height - reachBelow(*node.area, mat3(world[i]), n) - kLift);
-    if (node.punctual) lowest = std::min(lowest, height - kLift);
+      lowest = std::min(lowest, height - reachBelow(*node.area, mat3(world[i]), n) - lift);
+    if (node.punctual) lowest = std::min(lowest, height - lift);
     if (node.mesh == kNone) continue;
     for (const Primitive& primitive : scene.meshes[static_cast<size_t>(node.mesh)]->primitives) {
       for (const vec3& q : primitive.positions)
@@ -65,7 +66,8 @@ float standOff(const Scene& scene, NodeId id, const vec3& n) {
   return std::isfinite(lowest) ? -lowest : 0.0f;
 }
 
-std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at) {
+std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at,
+                                  float unit) {
   const Node& node = *scene.find(id);
   const mat4 parent = worldMatrix(scene, node.parent);
   if (!hasVolume(parent)) return std::nullopt;
@@ -77,9 +79,9 @@ std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePo
     local.rotation = glm::normalize(glm::inverse(decompose(parent).rotation) * world);
     Scene turned = scene;  // meshes are shared: cheap
     turned.find(id)->local = local;
-    off = standOff(turned, id, at.normal);
+    off = standOff(turned, id, at.normal, unit);
   } else {
-    off = standOff(scene, id, at.normal);
+    off = standOff(scene, id, at.normal, unit);
   }
   local.translation = vec3(glm::inverse(parent) * vec4(at.position + off * at.normal, 1.0f));
   return local;

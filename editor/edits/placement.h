@@ -13,12 +13,14 @@ struct SurfacePoint {
 };
 
 // Distance of the node's origin from a surface with unit normal n [m], such that the node and all
-// below it just touch the surface: meshes with their lowest point, lights with a small gap.
-float standOff(const Scene& scene, NodeId id, const vec3& n);
+// below it just touch the surface: meshes with their lowest point, lights with a gap of 0.01 units
+// of `unit` metres.
+float standOff(const Scene& scene, NodeId id, const vec3& n, float unit);
 
 // The node's local transform on the surface: objects keep their rotation, lights face away from the
-// surface. None if the parent's transform has no volume.
-std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at);
+// surface, with the gap of standOff(). None if the parent's transform has no volume.
+std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at,
+                                  float unit);
 
 // The least rotation that takes one unit direction to another.
 quat leastTurn(const vec3& from, const vec3& to);

@@ -26,16 +26,13 @@ Image ReferenceHalves::mean() const {
 }
 
 void ReferenceSampler::begin(const MeterSubject& subject) {
-  const bool sameLevel = rays_ && subject.level == subject_.level;
+  const bool sameLevel = world_.rays() != nullptr && subject.level == subject_.level;
   const SceneChanges changes = sameLevel ? compare(scene_, *subject.scene) : SceneChanges::all();
-  const RenderSceneChanges moved = update(world_, *subject.scene, changes);
-  if (!rays_)
-    rays_ = std::make_unique<RayCaster>(world_);
-  else if (!moved.none())
-    rays_->update(moved);
-  if (!sameLevel || !moved.none()) lights_ = LightSet(world_, lights_);
+  const RenderSceneChanges moved = world_.update(*subject.scene, changes);
+  if (!sameLevel || !moved.none()) lights_ = LightSet(world_.scene(), lights_);
   scene_ = *subject.scene;
   subject_ = subject;
+  subject_.view = world_.viewOf(subject.view);
   const View& view = subject_.view;
   block_ = std::min({std::max(subject_.block, 1), view.width, view.height});
   first_ = second_ = Image(blocksOf(view.width, block_), blocksOf(view.height, block_));
@@ -49,8 +46,8 @@ void ReferenceSampler::leaveOutLamps() {
   const int width = first_.width, height = first_.height;
   std::vector<uint8_t> seen(first_.pixels.size(), 0);
   const auto showsLamp = [&](float x, float y) {
-    const Hit hit = rays_->intersect({subject_.view.eye, 0.0f, subject_.view.rayDirection(x, y)},
-                                     Surfaces::seen);
+    const Hit hit = world_.rays()->intersect(
+        {subject_.view.eye, 0.0f, subject_.view.rayDirection(x, y)}, Surfaces::seen);
     return hit && lights_.emitterOfObject(hit.object) != kNone;
   };
   const tbb::blocked_range2d<int> blocks(0, height, 8, 0, width, 8);
@@ -88,8 +85,9 @@ bool ReferenceSampler::step(const std::function<bool()>& stop) {
     const int turn =
         static_cast<int>((begin + static_cast<uint32_t>(samples_)) % static_cast<uint32_t>(pixels));
     const auto path = static_cast<uint32_t>(samples_ / pixels);
-    sum.at(x, y) += tracePath(world_, *rays_, lights_, view, x * block_ + turn % block_,
-                              y * block_ + turn / block_, path, options);
+    sum.at(x, y) +=
+        tracePath(world_.scene(), *world_.rays(), lights_, view, x * block_ + turn % block_,
+                  y * block_ + turn / block_, path, options);
   };
   const tbb::blocked_range2d<int> blocks(0, first_.height, 8, 0, first_.width, 8);
   tbb::parallel_for(blocks, [&](const tbb::blocked_range2d<int>& tile) {

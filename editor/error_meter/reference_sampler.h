@@ -8,12 +8,11 @@
 #include <memory>
 #include <vector>
 
+#include "renderer/frame/world.h"
 #include "renderer/image/image.h"
 #include "renderer/methods/path_tracer/path_tracer.h"
-#include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/scene/camera.h"
-#include "renderer/scene/render_scene.h"
 
 namespace lamplighter {
 
@@ -52,10 +51,9 @@ class ReferenceSampler {
   ReferenceHalves halves() const;
 
  private:
-  MeterSubject subject_;
-  Scene scene_;  // the scene of world_
-  RenderScene world_;
-  std::unique_ptr<RayCaster> rays_;
+  MeterSubject subject_;  // its view in the unit of world_
+  Scene scene_;           // the scene of world_
+  World world_;
   LightSet lights_;
   void leaveOutLamps();
 

@@ -5,6 +5,7 @@
 
 #include "editor/tools/projection.h"
 #include "renderer/base/error.h"
+#include "renderer/scene/units.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
@@ -70,10 +71,11 @@ NodeId Explainer::blocker(int index, int which) const {
   return light.blockers[static_cast<size_t>(which)].node;
 }
 
-void Explainer::draw(Overlay& overlay, const View& view, const RenderScene& world,
+void Explainer::draw(Overlay& overlay, const View& metres, const RenderScene& world,
                      const RayCaster& rays, const LightSamples& samples) const {
   if (!answer_) return;
-  const PickedPoint& p = answer_->point;
+  const View view = inUnits(metres, world.unit);
+  const PickedPoint p = inUnits(answer_->point, world.unit);
   if (const LightShare* light = chosen()) {
     std::vector<const LightSamples::Sample*> facing;
     for (const LightSamples::Sample& s : samples.samples)

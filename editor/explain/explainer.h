@@ -27,8 +27,8 @@ class Explainer {
   NodeId blocker(int row, int index) const;
 
   // Draws a mark at the point and lines to the samples of the chosen light. The line of a blocked
-  // sample ends at the occluder.
-  void draw(Overlay& overlay, const View& view, const RenderScene& world, const RayCaster& rays,
+  // sample ends at the occluder. The view is in metres.
+  void draw(Overlay& overlay, const View& metres, const RenderScene& world, const RayCaster& rays,
             const LightSamples& samples) const;
 
  private:

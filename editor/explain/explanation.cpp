@@ -110,7 +110,8 @@ Ray rayTo(const PickedPoint& p, const shared::Vpl& vpl) {
   return {start, 0.0f, end - start, 1.0f};
 }
 
-float irradianceAt(const RayCaster& rays, const PickedPoint& point, const LightSamples& samples) {
+float irradianceAt(const RayCaster& rays, const PickedPoint& metres, const LightSamples& samples) {
+  const PickedPoint point = inUnits(metres, samples.unit);
   float sum = 0.0f;
   for (const LightSamples::Sample& s : samples.samples) {
     const float given = unshadowed(point, s, samples.clampDistance);
@@ -127,14 +128,14 @@ Explanation explain(const Scene& scene, const RenderScene& world, const RayCaste
     if (o.node == point.node) out.point.leftOutBy = o.leftOutBy;
   out.object = nameIn(scene, point.node);
   std::map<NodeId, LightShare> shares = allLights(scene, world);
+  const PickedPoint at = inUnits(out.point, samples.unit);
   for (const LightSamples::Sample& s : samples.samples) {
     const auto found = shares.find(s.id.light);
     if (found == shares.end()) continue;  // its light was just deleted
     if (s.id.bounce == 0)
       found->second.leavesOut =
           isLeftOut(out.point.leftOutBy, static_cast<uint32_t>(s.vpl.footprint.y));
-    addSample(world, rays, out.point, s, unshadowed(out.point, s, samples.clampDistance),
-              found->second);
+    addSample(world, rays, at, s, unshadowed(at, s, samples.clampDistance), found->second);
   }
   for (auto& [id, l] : shares) {
     if (l.state != LightArrival::off) l.state = stateOf(l);

@@ -54,14 +54,14 @@ struct Explanation {
   }
 };
 
-// The ray from the point to a sample. Both ends are offset from their surfaces. The length of the
-// direction is the distance, unless the sample is parallel light.
+// The ray from the point, in the unit of the scene, to a sample. Both ends are offset from their
+// surfaces. The length of the direction is the distance, unless the sample is parallel light.
 Ray rayTo(const PickedPoint& point, const shared::Vpl& vpl);
 
-// The irradiance E at the point [lx].
+// The irradiance E at the point (in metres) [lx].
 float irradianceAt(const RayCaster& rays, const PickedPoint& point, const LightSamples& samples);
 
-// Traces a ray to each sample. `scene` gives the names of the nodes.
+// Traces a ray from the point (in metres) to each sample. `scene` gives the names of the nodes.
 Explanation explain(const Scene& scene, const RenderScene& world, const RayCaster& rays,
                     const PickedPoint& point, const LightSamples& samples);
 

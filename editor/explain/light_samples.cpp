@@ -10,13 +10,14 @@ namespace {
 constexpr int kOwnSamples = 4096;
 // In a corner, a bounce sample represents all of its surroundings, so its value needs a bound. The
 // distance is small, because lights can be close to the surfaces that they light most.
-constexpr float kOwnClamp = 0.1f;  // [m]
+constexpr float kOwnClamp = 0.1f;  // [unit of the scene]
 
 }  // namespace
 
 LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene,
                           const RayCaster& rays, const Settings& settings) {
   LightSamples out;
+  out.unit = scene.unit;
   if (!inspection.lights.empty()) {
     out.clampDistance = manyLightsParameters().read(settings).clampDistance;
     for (const LightSample& light : inspection.lights)

@@ -1,4 +1,4 @@
-// The light samples that explain the light at a point.
+// The light samples that explain the light at a point, in the unit of the scene.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,8 @@ struct LightSamples {
     VplId id;
   };
   std::vector<Sample> samples;
-  float clampDistance = 0.0f;  // upper bound of 1/d² of samples: its value at this distance [m]
+  float clampDistance = 0.0f;  // upper bound of 1/d² of samples: its value at this distance
+  float unit = 1.0f;           // of the scene [m]
 };
 
 // The samples of the method, so that the explanation fits its picture. For a method without

@@ -1,11 +1,19 @@
 #include "editor/explain/picked_point.h"
 
 #include "renderer/scene/surface.h"
+#include "renderer/scene/units.h"
 
 namespace lamplighter {
 
+PickedPoint inUnits(const PickedPoint& metres, float unit) {
+  PickedPoint point = metres;
+  point.position /= unit;
+  return point;
+}
+
 std::optional<PickedPoint> surfaceAt(const RenderScene& scene, const RayCaster& rays,
-                                     const View& view, const vec2& pixel) {
+                                     const View& metres, const vec2& pixel) {
+  const View view = inUnits(metres, scene.unit);
   const vec3 direction = view.rayDirection(pixel.x, pixel.y);
   // As in the picture, surfaces nearer than the near plane are invisible.
   const float tNear = view.znear / glm::dot(direction, view.forward());
@@ -13,7 +21,7 @@ std::optional<PickedPoint> surfaceAt(const RenderScene& scene, const RayCaster& 
   if (!hit) return std::nullopt;
   const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
   const float side = glm::dot(s.geometricNormal, direction) < 0.0f ? 1.0f : -1.0f;
-  return PickedPoint{scene.objects[hit.object].node, s.position, side * s.normal,
+  return PickedPoint{scene.objects[hit.object].node, scene.unit * s.position, side * s.normal,
                      side * s.geometricNormal, scene.objects[hit.object].leftOutBy};
 }
 

@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// World space. The unit normals point to the side that the camera sees.
+// World space, in metres. The unit normals point to the side that the camera sees.
 struct PickedPoint {
   NodeId node = kNoNode;
   vec3 position{0.0f};
@@ -19,10 +19,13 @@ struct PickedPoint {
   uint32_t leftOutBy = 0;
 };
 
-// The first surface on the ray through an image point (pixels). Nothing if the ray leaves the
-// level.
+// The same point with its position in units of `unit` metres.
+PickedPoint inUnits(const PickedPoint& metres, float unit);
+
+// The first surface on the ray through an image point (pixels) of a view in metres. Nothing if the
+// ray leaves the level.
 std::optional<PickedPoint> surfaceAt(const RenderScene& scene, const RayCaster& rays,
-                                     const View& view, const vec2& pixel);
+                                     const View& metres, const vec2& pixel);
 
 // The point in the local space of its node, so that it moves with the node.
 class Anchor {

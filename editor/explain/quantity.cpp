@@ -15,7 +15,10 @@ std::string threeDigits(float value) {
 
 std::string luxText(float irradiance) { return threeDigits(irradiance) + " lx"; }
 std::string nitsText(float luminance) { return threeDigits(luminance) + " nt"; }
-std::string metresText(float metres) { return fmt::format("{:.3f} m", metres); }
+std::string metresText(float metres) {
+  const bool isTiny = metres > 0.0f && metres < 0.0995f;
+  return isTiny ? fmt::format("{:.3g} m", metres) : fmt::format("{:.3f} m", metres);
+}
 
 std::string offsetText(const vec3& d) {
   return fmt::format("dx {:+.3f}  dy {:+.3f}  dz {:+.3f} m", d.x, d.y, d.z);

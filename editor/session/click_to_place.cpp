@@ -19,7 +19,7 @@ void placeUnderPointer(Session& s, bool goesOn) {
   const Node* added = s.document().scene.find(s.document().active());
   if (!isAdded || added == nullptr) return s.startPlacing("");
   Node node = *added;
-  if (const auto local = placedOn(s.document().scene, node.id, *place)) {
+  if (const auto local = placedOn(s.document().scene, node.id, *place, s.unit())) {
     node.local = *local;
     setNodes(s.editing(), "Place " + node.name, {node});
   }

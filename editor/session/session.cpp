@@ -25,16 +25,17 @@ void Session::open(Scene scene, std::filesystem::path path,
                    const std::vector<std::string>& warnings) {
   cancelDrag();
   // First what needs much memory: if it fails, the present level stays.
-  RenderScene world;
-  update(world, scene, SceneChanges::all());
+  World world;
+  world.update(scene, SceneChanges::all());
+  const float unit = world.scene().unit;
+  const Bounds bounds = inMetres(world.scene().bounds, unit);
   const auto& nodes = scene.nodes;
   const auto camera =
       std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.camera != kNone; });
   const View view = camera != nodes.end() ? viewOfCamera(scene, *camera, view_.width, view_.height)
-                                          : viewOfBounds(world.bounds, view_.width, view_.height);
+                                          : viewOfBounds(bounds, view_.width, view_.height);
   // The camera orbits around the surface in the middle of the picture.
-  const RayCaster rays(world);
-  const Hit hit = rays.intersect({view.eye, 0.0f, view.forward()}, Surfaces::seen);
+  const Hit hit = world.rays()->intersect({view.eye / unit, 0.0f, view.forward()}, Surfaces::seen);
   const uint64_t hash = sceneHash(scene);
   std::vector<FileStamp> files = filesOf(scene);
 
@@ -46,7 +47,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   points_.forget();
   disk_ = std::move(files);
   view_ = view;
-  tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
+  tools_->camera.reset(hit ? unit * hit.t : std::max(bounds.radius(), 0.1f * unit), unit);
   const std::string problem = crashRecovery_.opened(document_);
   const std::string whole = document_.path.string(), name = document_.path.filename().string();
   setStatus("Opened " + name);

@@ -126,11 +126,14 @@ class Session {
   // Which debug view is shown.
   ViewDisplay& display() { return display_; }
   const ViewDisplay& display() const { return display_; }
+  // In the unit of renderScene(), as is everything of renderer().
   Inspection inspect() const { return renderer_->inspect(); }
   // The picture in the viewport, without the overlay.
   Image8 picture() const;
   uint32_t frame() const { return frame_; }
   const RenderScene& renderScene() const { return renderer_->scene(); }  // of the last frame
+  float unit() const { return renderScene().unit; }          // of lengths that suit the level [m]
+  Bounds bounds() const;                                     // of the level [m]
   uint64_t sceneRevision() const { return sceneRevision_; }  // increases with each change of it
   LightingState& lighting() { return lighting_; }
   const LightingState& lighting() const { return lighting_; }

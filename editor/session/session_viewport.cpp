@@ -9,6 +9,7 @@
 #include "editor/tools/picker.h"
 #include "editor/tools/scene_overlay.h"
 #include "editor/tools/surface_search.h"
+#include "renderer/scene/units.h"
 
 namespace lamplighter {
 
@@ -50,31 +51,34 @@ void Session::frameSelection() {
     for (const Node* n = document_.scene.find(o.node); n != nullptr;
          n = document_.scene.find(n->parent)) {
       if (selected.contains(n->id)) {
-        bounds.add(o.bounds);
+        bounds.add(inMetres(o.bounds, unit()));
         break;
       }
     }
   }
   for (const RenderPunctual& p : renderer_->scene().punctuals) {
-    if (selected.contains(p.node)) bounds.add(p.position);
+    if (selected.contains(p.node)) bounds.add(unit() * p.position);
   }
-  tools_->camera.frame(view_, bounds.empty() ? renderer_->scene().bounds : bounds);
+  tools_->camera.frame(view_, bounds.empty() ? this->bounds() : bounds, unit());
 }
 
-void Session::frameAll() { tools_->camera.frame(view_, renderer_->scene().bounds); }
+void Session::frameAll() { tools_->camera.frame(view_, bounds(), unit()); }
+
+Bounds Session::bounds() const { return inMetres(renderScene().bounds, unit()); }
 
 void Session::viewport(const ViewportInput& input) {
   if (input.hovered || dragging()) {
     tools_->pointer = input.pointer;
     tools_->pointerKnown = true;
   }
+  tools_->gizmo.unit = tools_->lightHandles.unit = unit();
   // A drag comes before the camera, because the right button cancels it.
   const auto surface = [&](SnapTo target) -> std::optional<vec3> {
     if (target == SnapTo::vertex) return vertexUnderPointer(document_.selection);
     const auto place = surfaceUnderPointer(document_.selection);
     if (!place) return std::nullopt;
     return place->position +
-           standOff(document_.scene, document_.active(), place->normal) * place->normal;
+           standOff(document_.scene, document_.active(), place->normal, unit()) * place->normal;
   };
   const auto aimedAt = [&]() -> std::optional<vec3> {
     const auto place = surfaceUnderPointer(document_.selection);
@@ -101,12 +105,12 @@ void Session::viewport(const ViewportInput& input) {
   if (!input.pressed[0] || !input.hovered || renderer_->rays() == nullptr) return;
   if (display_.showsVpls()) {
     const Inspection inspection = inspect();
-    const int vpl = pickVpl(view_, inspection, *renderer_->rays(), input.pointer);
+    const int vpl = pickVpl(inUnits(view_, unit()), inspection, *renderer_->rays(), input.pointer);
     if (vpl != kNone) return display_.choose(inspection, vpl);
   }
 
-  const NodeId id = pick(view_, renderer_->scene(), *renderer_->rays(), input.pointer,
-                         [&](NodeId n) { return !isLocked(document_.scene, n); });
+  const NodeId id = pick(inUnits(view_, unit()), renderer_->scene(), *renderer_->rays(),
+                         input.pointer, [&](NodeId n) { return !isLocked(document_.scene, n); });
   std::vector<NodeId> selection;
   if (input.modifiers.ctrl || input.modifiers.shift) {
     selection = document_.selection;
@@ -157,7 +161,8 @@ Overlay Session::overlay() const {
   drawScene(overlay, view_, document_, renderer_->scene());
   if (display_.showsVpls() && renderer_->rays() != nullptr) {
     const Inspection inspection = inspect();
-    drawVpls(overlay, view_, inspection, *renderer_->rays(), display_.chosen(inspection));
+    drawVpls(overlay, inUnits(view_, unit()), inspection, *renderer_->rays(),
+             display_.chosen(inspection));
   }
   tools_->lightHandles.draw(overlay, view_, document_);
   if (points_.tool() == PointTool::none) tools_->gizmo.draw(overlay, view_, document_);

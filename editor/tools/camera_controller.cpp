@@ -82,17 +82,17 @@ bool CameraController::update(View& view, const ViewportInput& in) {
   return false;
 }
 
-void CameraController::frame(View& view, const Bounds& bounds) {
+void CameraController::frame(View& view, const Bounds& bounds, float unit) {
   if (bounds.empty()) return;
-  const float radius = std::max(bounds.radius(), 0.05f);
+  const float radius = std::max(bounds.radius(), 0.05f * unit);
   const float narrow = std::tan(0.5f * view.yfov) * std::min(1.0f, view.aspect());
   pivotDistance_ = 1.05f * radius / std::sin(std::atan(narrow));
   view.eye = bounds.centre() - pivotDistance_ * view.forward();
 }
 
-void CameraController::reset(float distance) {
-  pivotDistance_ = std::max(distance, 0.01f);
-  speed_ = std::clamp(0.6f * distance, 0.1f, 50.0f);
+void CameraController::reset(float distance, float unit) {
+  pivotDistance_ = std::max(distance, 0.01f * unit);
+  speed_ = std::clamp(0.6f * distance, 0.1f * unit, 50.0f * unit);
   flying_ = panning_ = orbiting_ = false;
 }
 

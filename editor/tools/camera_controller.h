@@ -12,10 +12,12 @@ class CameraController {
   // Alt + left button: orbit around the pivot. Wheel: dolly. Returns true if it used the input.
   bool update(View& view, const ViewportInput& input);
 
-  // Moves the camera so that `bounds` fills the view; keeps the direction.
-  void frame(View& view, const Bounds& bounds);
-  // Call for a new scene: the pivot is `distance` ahead; the speed per second is a fraction of it.
-  void reset(float distance);
+  // Moves the camera so that `bounds` fills the view; keeps the direction. `unit`: of lengths that
+  // suit the level [m].
+  void frame(View& view, const Bounds& bounds, float unit = 1.0f);
+  // Call for a new scene: the pivot is `distance` ahead; the speed per second is a fraction of it,
+  // from 0.1 to 50 units.
+  void reset(float distance, float unit = 1.0f);
   bool flying() const { return flying_; }
   float speed() const { return speed_; }  // m/s
 

@@ -17,7 +17,7 @@ constexpr float kGrab = 8.0f;    // distance from a line in pixels for grabbing 
 constexpr float kPlaneFrom = 0.28f,
                 kPlaneTo = 0.5f;     // the range of the plane squares along their axes
 constexpr float kScreenRing = 1.2f;  // radius of the ring for rotation in the picture plane
-constexpr float kMoveStep = 0.25f;   // m
+constexpr float kMoveStep = 0.25f;   // units
 constexpr float kTurnStep = 15.0f * kPi / 180.0f;
 constexpr float kScaleStep = 0.1f;
 
@@ -248,7 +248,7 @@ std::optional<std::vector<Node>> Gizmo::dragged(const View& view, const vec2& po
     case ToolMode::move: {
       vec3 offset = *grip - d.grip;
       if (snapping) {
-        for (int i = 0; i < 3; ++i) offset[i] = snapped(offset[i], kMoveStep);
+        for (int i = 0; i < 3; ++i) offset[i] = snapped(offset[i], kMoveStep * unit);
       }
       return moved(offset);
     }

@@ -26,6 +26,7 @@ class Gizmo {
   ToolMode mode = ToolMode::select;
   bool snap = false;  // always, not only while Ctrl is held
   SnapTo snapTo = SnapTo::grid;
+  float unit = 1.0f;  // of grid steps: the length that suits the level [m]
 
   // Handles hover, start, update and end of a drag. Returns true if the gizmo uses the pointer. A
   // drag is one transaction; Esc or the right button cancels it. With Shift a move

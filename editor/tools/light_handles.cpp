@@ -13,8 +13,8 @@ namespace {
 
 constexpr float kHandleGrab = 8.0f;    // px
 constexpr float kHandleReach = 60.0f;  // distance of the aim and cone handles from the light [px]
-constexpr float kLeast = 0.001f;       // smallest size [m]
-constexpr float kSizeStep = 0.05f;     // m
+constexpr float kLeast = 0.001f;       // smallest size [units]
+constexpr float kSizeStep = 0.05f;     // units
 constexpr float kConeStep = kPi / 36.0f;  // 5°
 constexpr float kMostCone = 0.5f * kPi;   // glTF's limit of a spot's cones
 constexpr float kLeastCone = 0.01f;       // rad
@@ -183,7 +183,7 @@ std::optional<Node> LightHandles::resized(const vec3& at, bool bothSides, bool s
   vec2& size = node.area->size;
   const vec3 p(glm::inverse(drag_->world) * vec4(at, 1.0f));
   const auto rounded = [&](float value) {
-    return std::max(kLeast, snapping ? snappedUp(value, kSizeStep) : value);
+    return std::max(kLeast * unit, snapping ? snappedUp(value, kSizeStep * unit) : value);
   };
   if (drag_->kind == Kind::rim && isTube(*node.area)) {
     size.y = rounded(2.0f * glm::length(vec2(p.y, p.z)));

@@ -20,11 +20,13 @@ using AimTarget = std::function<std::optional<vec3>()>;
 
 class LightHandles {
  public:
+  float unit = 1.0f;  // of lengths that suit the level [m]
+
   enum class Kind { none, right, left, top, bottom, rim, aim, outerCone, innerCone };
 
   // Handles hover, start, update and end of a drag, as Gizmo::update() does. Returns true if a
   // handle uses the pointer. An edge keeps the opposite edge in place; with Shift both move. Sizes
-  // snap to 5 cm and cones to 5° if either `snap` or Ctrl is on, but not both.
+  // snap to 0.05 units and cones to 5° if either `snap` or Ctrl is on, but not both.
   bool update(const View& view, const ViewportInput& input, Editing& editing, bool snap,
               const AimTarget& target);
   bool dragging() const { return drag_.has_value(); }

@@ -5,6 +5,7 @@
 #include "editor/tools/picker.h"
 #include "editor/tools/projection.h"
 #include "renderer/scene/light_linking.h"
+#include "renderer/scene/units.h"
 
 namespace lamplighter {
 
@@ -74,6 +75,7 @@ void drawAreaLight(Overlay& overlay, const View& view, const AreaLight& light, c
 }
 
 // Draws a mark that looks like a sun. Spots and directional lights also show their direction.
+// `view`: in the unit of the light.
 void drawPunctual(Overlay& overlay, const View& view, const RenderPunctual& light,
                   const vec4& colour) {
   const auto mark = projectPoint(view, light.position);
@@ -145,8 +147,9 @@ void drawScene(Overlay& overlay, const View& view, const Document& document,
       drawBox(overlay, view, *document.scene.meshes[n.mesh], world[i], colourOf(n.id, kLight));
   }
   drawLeftOut(overlay, view, document, world, visible);
+  const View inSceneUnits = inUnits(view, scene.unit);
   for (const RenderPunctual& light : scene.punctuals)
-    drawPunctual(overlay, view, light, colourOf(light.node, kLight));
+    drawPunctual(overlay, inSceneUnits, light, colourOf(light.node, kLight));
 }
 
 }  // namespace lamplighter

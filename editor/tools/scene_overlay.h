@@ -8,6 +8,7 @@
 
 namespace lamplighter {
 
+// `view`: in metres.
 void drawScene(Overlay& overlay, const View& view, const Document& document,
                const RenderScene& scene);
 

@@ -16,13 +16,13 @@ bool SurfaceSearch::isIgnored(NodeId id) const {
 }
 
 std::optional<Hit> SurfaceSearch::hitAlong(const vec3& eye, const vec3& direction) const {
-  Ray ray{eye, 0.0f, direction};
+  Ray ray{eye / scene.unit, 0.0f, direction};
   constexpr int kMostLayers = 1000;  // of consecutive ignored surfaces
   for (int i = 0; i < kMostLayers; ++i) {
     const Hit hit = rays.intersect(ray, Surfaces::seen);
     if (!hit) return std::nullopt;
     if (!isIgnored(scene.objects[hit.object].node)) return hit;
-    ray.tNear = hit.t + rayEpsilon(eye + hit.t * direction);
+    ray.tNear = hit.t + rayEpsilon(ray.origin + hit.t * direction);
   }
   return std::nullopt;
 }
@@ -32,7 +32,7 @@ std::optional<SurfacePoint> SurfaceSearch::along(const vec3& eye, const vec3& di
   if (!hit) return std::nullopt;
   const Surface s = surfaceAt(scene, hit->object, hit->triangle, hit->u, hit->v);
   const bool front = glm::dot(s.geometricNormal, direction) < 0.0f;
-  return SurfacePoint{s.position, front ? s.geometricNormal : -s.geometricNormal};
+  return SurfacePoint{scene.unit * s.position, front ? s.geometricNormal : -s.geometricNormal};
 }
 
 std::optional<vec3> SurfaceSearch::vertexAt(const View& view, const vec2& pointer) const {
@@ -43,7 +43,7 @@ std::optional<vec3> SurfaceSearch::vertexAt(const View& view, const vec2& pointe
   std::optional<vec3> best;
   float nearest = std::numeric_limits<float>::infinity();
   for (int i = 0; i < 3; ++i) {
-    const vec3& place = scene.positions[corner[i]];
+    const vec3 place = scene.unit * scene.positions[corner[i]];
     const auto point = projectPoint(view, place);
     if (!point || glm::length(*point - pointer) >= nearest) continue;
     nearest = glm::length(*point - pointer);

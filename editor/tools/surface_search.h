@@ -1,4 +1,5 @@
-// Finds the first surface, or its vertex, on a ray of the camera. Some nodes can be ignored.
+// Finds the first surface, or its vertex, on a ray of the camera. Some nodes can be ignored. All
+// arguments and results are in metres.
 #pragma once
 
 #include <optional>

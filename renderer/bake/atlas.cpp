@@ -68,12 +68,13 @@ std::vector<Group> groupsOf(const RenderScene& scene, float texelsPerMetre) {
 LightMapAtlas makeAtlas(const RenderScene& scene, const AtlasOptions& options) {
   LightMapAtlas atlas;
   atlas.pageSize = options.pageSize;
-  std::vector<Group> groups = groupsOf(scene, options.texelsPerMetre);
+  const float wanted = options.texelsPerMetre * scene.unit;  // [texels per unit]
+  std::vector<Group> groups = groupsOf(scene, wanted);
   std::stable_sort(groups.begin(), groups.end(),
                    [](const Group& a, const Group& b) { return a.area > b.area; });
   std::vector<Skyline> pages;
   for (Group& group : groups) {
-    float density = options.texelsPerMetre;
+    float density = wanted;
     setDensity(group, density);
     bool isPlaced = false;
     for (size_t i = 0; i < pages.size() && !isPlaced; ++i)
@@ -92,7 +93,7 @@ LightMapAtlas makeAtlas(const RenderScene& scene, const AtlasOptions& options) {
         setDensity(group, density);
       }
     }
-    if (density < options.texelsPerMetre) atlas.coarser.push_back({group.node, density});
+    if (density < wanted) atlas.coarser.push_back({group.node, density / scene.unit});
     for (ObjectChart& c : group.charts) atlas.charts.push_back(std::move(c));
   }
   atlas.pages = static_cast<int>(pages.size());

@@ -13,7 +13,7 @@ struct AtlasOptions {
   int pageSize = 1024;  // texels per side
 };
 
-// A chart of an object, in world space.
+// A chart of an object, in world space, with texels per unit of the scene.
 struct ObjectChart : PlacedChart {
   uint32_t object = 0;  // index into RenderScene::objects
   int page = 0;

@@ -61,7 +61,7 @@ ViewPicture shadowMap(const ViewSubject& in) {
   out.legend.title = "Shadow map of light sample " + std::to_string(chosen);
   out.legend.ramp = colours::rampSteps();
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g m", static_cast<double>(most));
+  std::snprintf(text, sizeof text, "%.3g m", static_cast<double>(in.scene.unit * most));
   out.legend.low = text;
   out.legend.high = "0";
   out.legend.swatches = {{colours::kAway, "nothing"}};

@@ -13,19 +13,10 @@ FrameRenderer::FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwat
 FrameRenderer::~FrameRenderer() = default;
 
 void FrameRenderer::update(const Scene& scene, const SceneChanges& changes) {
-  const SceneChanges wanted = rays_ ? changes : SceneChanges::all();
   try {
-    const RenderSceneChanges found = lamplighter::update(scene_, scene, wanted);
-    if (!rays_) {
-      rays_ = std::make_unique<RayCaster>(scene_);
-    } else if (!found.none()) {
-      rays_->update(found);
-    }
-    pending_.merge(found);
+    pending_.merge(world_.update(scene, changes));
   } catch (...) {
     forget();
-    rays_.reset();
-    scene_ = {};
     throw;
   }
   hasOtherScene_ |= changes.everything;
@@ -46,7 +37,9 @@ GiOutput FrameRenderer::renderUpdated(const Request& request) {
   // 2. Update the backend.
   const RenderSceneChanges changes = std::exchange(pending_, {});
   const bool isOtherScene = std::exchange(hasOtherScene_, false);
-  if (!changes.none()) backend_->setScene(scene_, changes, *rays_);
+  const RenderScene& scene = world_.scene();
+  const RayCaster& rays = *world_.rays();
+  if (!changes.none()) backend_->setScene(scene, changes, rays);
 
   // 3. Run the method; create it if another one is requested.
   if (!method_ || methodName_ != request.method) {
@@ -55,11 +48,12 @@ GiOutput FrameRenderer::renderUpdated(const Request& request) {
   } else if (isOtherScene) {
     method_->reset();  // another scene: nothing of the previous one may remain
   }
-  services_.beginFrame(scene_, changes, *rays_, {request.inBackground, request.refineUpdates},
+  services_.beginFrame(scene, changes, rays, {request.inBackground, request.refineUpdates},
                        isOtherScene);
+  const View view = world_.viewOf(request.view);
   GiOutput output =
-      method_->render({scene_, changes, request.view, *backend_, services_, request.settings,
-                       frame_++, stopwatch_, stageTimes_, request.lightOnly, request.part});
+      method_->render({scene, changes, view, *backend_, services_, request.settings, frame_++,
+                       stopwatch_, stageTimes_, request.lightOnly, request.part});
   backend_->checkDevice();
   return output;
 }

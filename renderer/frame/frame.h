@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "renderer/frame/world.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/scene/scene_changes.h"
 
@@ -20,7 +21,7 @@ class FrameRenderer {
   struct Request {
     const Scene& scene;
     const SceneChanges& changes;  // since the last request; all() in the first one
-    const View& view;
+    const View& view;             // [m]
     const std::string& method;
     const Settings& settings;
     bool lightOnly = false;     // visible surfaces are shown white
@@ -37,7 +38,8 @@ class FrameRenderer {
   // changes that follow.
   void update(const Scene& scene, const SceneChanges& changes);
 
-  // Internal data of the method, for debug views. Valid until the next call of another function.
+  // Internal data of the method, for debug views, in the unit of scene(). Valid until the next call
+  // of another function.
   Inspection inspect() const { return method_ ? method_->inspect() : Inspection(); }
 
   // As in Services.
@@ -49,8 +51,10 @@ class FrameRenderer {
   void setBackend(std::unique_ptr<Backend> backend);
 
   Backend& backend() { return *backend_; }
-  const RenderScene& scene() const { return scene_; }
-  const RayCaster* rays() const { return rays_.get(); }  // null before the first frame
+  // Both are in the unit of the scene (RenderScene::unit).
+  const RenderScene& scene() const { return world_.scene(); }
+  const RayCaster* rays() const { return world_.rays(); }  // null before the first frame
+  const World& world() const { return world_; }
   Services& services() { return services_; }
 
  private:
@@ -60,8 +64,7 @@ class FrameRenderer {
   std::unique_ptr<Backend> backend_;
   Stopwatch stopwatch_;
   StageTimes stageTimes_;
-  RenderScene scene_;
-  std::unique_ptr<RayCaster> rays_;
+  World world_;
   RenderSceneChanges pending_;  // changes that the backend and the method have not received yet
   bool hasOtherScene_ = false;  // likewise: the scene was replaced
   std::string methodName_;

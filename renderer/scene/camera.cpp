@@ -68,7 +68,7 @@ View viewOfBounds(const Bounds& bounds, int width, int height) {
   view.orientation = glm::normalize(glm::quat_cast(mat3(right, glm::cross(back, right), back)));
   // The smallest distance at which every corner of the box is visible: a corner at p (relative to
   // the centre) is in the picture if |p·right| and |p·up| are within the frustum at its depth.
-  const float radius = std::max(bounds.radius(), 1e-3f);
+  const float radius = bounds.radius() > 0.0f ? bounds.radius() : 1e-3f;
   const float vertical = std::tan(0.5f * view.yfov), horizontal = vertical * view.aspect();
   const vec3 half = 0.5f * bounds.extent();
   float distance = 0.0f;
@@ -79,7 +79,7 @@ View viewOfBounds(const Bounds& bounds, int width, int height) {
                          towardsEye + std::abs(glm::dot(p, view.up())) / vertical});
   }
   view.eye = bounds.centre() + back * std::max(1.05f * distance, radius * 0.1f);
-  view.znear = std::max(1e-4f, 0.001f * radius);
+  view.znear = 0.001f * radius;
   return view;
 }
 

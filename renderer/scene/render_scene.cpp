@@ -119,7 +119,17 @@ void append(RenderScene& render, NodeId node, const Primitive& p, const mat4& wo
   render.objects.push_back(o);
 }
 
-RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
+// World matrices of the nodes that give positions in the unit of the scene.
+std::vector<mat4> matricesInUnits(const RenderScene& render, const Scene& scene) {
+  std::vector<mat4> world = worldMatrices(scene);
+  const vec4 scale(vec3(1.0f / render.unit), 1.0f);
+  for (mat4& m : world)
+    for (int column = 0; column < 4; ++column) m[column] *= scale;
+  return world;
+}
+
+// `world`: of matricesInUnits().
+RenderPunctual placed(const RenderScene& render, const Node& node, const mat4& world, bool shines) {
   RenderPunctual r;
   r.node = node.id;
   r.light = *node.punctual;
@@ -128,6 +138,8 @@ RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   const float length = glm::length(aim);
   if (length > 0.0f) r.direction = aim / length;
   if (r.light.profile) r.light.intensity *= r.light.profile->atTilt(r.direction);
+  if (r.light.kind != PunctualKind::directional) r.light.intensity /= render.unit * render.unit;
+  r.light.range /= render.unit;
   r.nominal = r.light.intensity;
   if (!shines) r.light.intensity = vec3(0.0f);
   // Scale, shear and mirroring only affect the direction of X.
@@ -145,7 +157,9 @@ int materialOf(const RenderScene& render, const Scene& scene, const Primitive& p
 }
 
 void rebuild(RenderScene& render, const Scene& scene) {
+  const float unit = render.unit;
   render = RenderScene();
+  render.unit = unit;
   render.materials = scene.materials;
   render.materials.emplace_back().metallic = 0.0f;  // the default material
   render.firstDark = static_cast<int>(
@@ -155,7 +169,7 @@ void rebuild(RenderScene& render, const Scene& scene) {
   const Pictures pictures(scene);
   for (const LightPicture* p : pictures.shown)
     render.textures.push_back({p->file, p->image, Wrap::clamp, Wrap::clamp, false, false});
-  const std::vector<mat4> world = worldMatrices(scene);
+  const std::vector<mat4> world = matricesInUnits(render, scene);
   const std::vector<bool> visible = visibleNodes(scene);
   const std::vector<bool> shining = shiningLights(scene).nodes;
   const LightLinks links = lightLinks(scene);
@@ -183,7 +197,7 @@ void rebuild(RenderScene& render, const Scene& scene) {
       render.objects[o].leftOutBy = links.leftOutBy[i];
     }
     if (node.punctual) {
-      render.punctuals.push_back(placed(node, world[i], shining[i]));
+      render.punctuals.push_back(placed(render, node, world[i], shining[i]));
       render.punctuals.back().link = links.ofLight[i];
     }
   }
@@ -205,7 +219,7 @@ void findBounds(RenderScene& render) {
 // created them.
 void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& changes,
                  RenderSceneChanges& out) {
-  const std::vector<mat4> world = worldMatrices(scene);
+  const std::vector<mat4> world = matricesInUnits(render, scene);
   const std::vector<bool> shining = shiningLights(scene).nodes;
   const auto hasMoved = [&](NodeId id) {
     return std::binary_search(changes.moved.begin(), changes.moved.end(), id);
@@ -242,7 +256,7 @@ void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& ch
                                  [&](const Node& n) { return n.id == p.node; });
     const auto index = static_cast<size_t>(it - scene.nodes.begin());
     RenderPunctual before = std::move(p);
-    p = placed(*it, world[index], shining[index]);
+    p = placed(render, *it, world[index], shining[index]);
     p.link = before.link;  // a different link would be a change of structure
     out.gains |= before.light.intensity != p.light.intensity;
     out.references |= referenceBrightness(before.nominal) != referenceBrightness(p.nominal);
@@ -326,6 +340,11 @@ void RenderSceneChanges::merge(const RenderSceneChanges& later) {
     movedObjects.push_back(object);
     movedBounds.push_back(later.movedBounds[i]);
   }
+}
+
+RenderSceneChanges setUnit(RenderScene& render, const Scene& scene, float unit) {
+  render.unit = unit;
+  return update(render, scene, SceneChanges::all());
 }
 
 RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes) {

@@ -1,6 +1,7 @@
 // The scene as the renderer uses it: visible triangles in world space in one buffer, and the
-// emitters. Occluders are transformed once on the CPU, so that a shadow map needs few draw calls
-// (paper 1, 4.2.2).
+// emitters. Lengths are in RenderScene::unit, so that constants of the renderer that are given in
+// metres suit levels of any size. Occluders are transformed once on the CPU, so that a shadow map
+// needs few draw calls (paper 1, 4.2.2).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ struct RenderObject {
   uint32_t firstVertex = 0, vertexCount = 0;
   uint32_t firstIndex = 0, indexCount = 0;  // indices into RenderScene::positions
   Bounds bounds;                            // world space
-  mat4 world{1.0f};                         // world matrix of the node at the last update
+  mat4 world{1.0f};                         // from the node to world space at the last update
   MeshKind kind = MeshKind::automatic;      // of the node
   bool isAreaLight = false;                 // tessellated from Node::area
   uint32_t link = 0;                        // of its own light if it emits (light_linking.h)
@@ -29,8 +30,10 @@ struct RenderObject {
 // A punctual light in world space.
 struct RenderPunctual {
   NodeId node = kNoNode;
-  PunctualLight light;  // intensity includes the tilt factor of its profile; 0 while it is off
-  vec3 nominal{0.0f};   // its intensity while it is on
+  // In the unit of the scene: an intensity is the irradiance at a distance of one unit. It includes
+  // the tilt factor of the profile, and is 0 while the light is off.
+  PunctualLight light;
+  vec3 nominal{0.0f};  // its intensity while it is on
   vec3 position{0.0f};
   vec3 direction{0.0f, 0.0f, -1.0f};  // unit; the direction in which it aims
   mat3 axes{1.0f};                    // its X, Y and Z axes, orthonormal; Z is −direction
@@ -61,6 +64,7 @@ struct RenderScene {
   Sky nominalSky;         // while it is on
   uint32_t skyLink = 0;   // light_linking.h
   bool hasLinks = false;  // some light leaves objects out
+  float unit = 1.0f;      // of all lengths here: a power of two, in metres of Scene
   Bounds bounds;          // of all objects
 
   size_t triangleCount() const { return indices.size() / 3; }
@@ -107,7 +111,12 @@ struct RenderSceneChanges {
   void merge(const RenderSceneChanges& later);
 };
 
-// Updates `render` for the changes of `scene`. Never throws; a scene without nodes has no objects.
+// Updates `render` for the changes of `scene`, in the present unit. Never throws; a scene without
+// nodes has no objects.
 RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes);
+
+// Builds `render` anew in another unit. The result is exact: every length is multiplied by a power
+// of two.
+RenderSceneChanges setUnit(RenderScene& render, const Scene& scene, float unit);
 
 }  // namespace lamplighter

@@ -137,7 +137,8 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
     parts.push_back(
         {"view", view, isProblem ? theme::kWarning : theme::kText, infoOf(display.view()).help});
   }
-  const std::string vpl = display.vplText(ui.session.document().scene, ui.session.inspect());
+  const std::string vpl =
+      display.vplText(ui.session.document().scene, ui.session.inspect(), ui.session.unit());
   if (!vpl.empty()) parts.push_back({"vpl", vpl, theme::kText, "The chosen light sample."});
 
   if (const auto& reading = ui.session.points().reading();

@@ -99,7 +99,7 @@ TEST_F(ViewDisplayTest, ALightSampleIsChosenByNumber) {
   session_.runAction("view.occlusion");
   settle();
   const Scene& scene = session_.document().scene;
-  const auto text = [&] { return session_.display().vplText(scene, session_.inspect()); };
+  const auto text = [&] { return session_.display().vplText(scene, session_.inspect(), 1.0f); };
   EXPECT_TRUE(text().starts_with("VPL 0 of 16, light, direct")) << text();
   const auto first = session_.picture().pixels;
   int below = 0;  // an indirect sample, which shows another picture
