@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -61,7 +62,8 @@ Json describe(const std::string& file, const LoadedScene& loaded) {
   Json j;
   j["scene"] = file;
   j["triangles"] = world.triangleCount();
-  j["draws"] = world.objects.size();
+  j["draws"] =
+      std::ranges::count_if(world.objects, [](const RenderObject& o) { return !o.isEmpty(); });
   j["vertices"] = world.positions.size();
   j["nodes"] = scene.nodes.size();
   j["meshes"] = scene.meshes.size();

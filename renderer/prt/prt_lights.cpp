@@ -310,6 +310,7 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
     reshape(frame, others);
     isKnown_ = true;
   } else {
+    objects_.resize(scene.objects.size());
     others = reshape(frame, changes.movedObjects);
   }
   if (anew || !others.empty()) findObjects(frame, others);

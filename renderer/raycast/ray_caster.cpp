@@ -2,51 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
-#include <stdexcept>
-#include <string>
 #include <tuple>
 #include <utility>
 
 #include <embree3/rtcore.h>
 
 #include "renderer/base/simd.h"
+#include "renderer/raycast/embree_scenes.h"
 #include "renderer/raycast/placed_hits.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
 
-// An error that Embree reported. Not in the unnamed namespace, since Impl has one.
-struct EmbreeError {
-  RTCError code = RTC_ERROR_NONE;
-  std::string text;
-};
-
 namespace {
-
-// Stores the first error for RayCaster::Impl::check(): exceptions must not pass through Embree.
-void onError(void* first, RTCError code, const char* message) {
-  auto& error = *static_cast<EmbreeError*>(first);
-  if (error.code == RTC_ERROR_NONE) error = {code, message != nullptr ? message : ""};
-}
-
-// Rejects hits in holes of the alpha mask. N is 1 or 8; valid lanes are −1.
-void alphaFilter(const RTCFilterFunctionNArguments* a) {
-  const auto& scene = *static_cast<const RenderScene*>(a->geometryUserPtr);
-  for (unsigned int i = 0; i < a->N; ++i) {
-    if (a->valid[i] != -1) continue;
-    const uint32_t object = RTCHitN_geomID(a->hit, a->N, i);
-    const uint32_t triangle = RTCHitN_primID(a->hit, a->N, i);
-    const Ray ray{{RTCRayN_org_x(a->ray, a->N, i), RTCRayN_org_y(a->ray, a->N, i),
-                   RTCRayN_org_z(a->ray, a->N, i)},
-                  0.0f,
-                  {RTCRayN_dir_x(a->ray, a->N, i), RTCRayN_dir_y(a->ray, a->N, i),
-                   RTCRayN_dir_z(a->ray, a->N, i)}};
-    const Hit at = placed(scene, ray, object, triangle);
-    const float alpha = alphaAt(scene, object, triangle, at.u, at.v);
-    if (alpha < scene.materials[scene.objects[object].material].alphaCutoff) a->valid[i] = 0;
-  }
-}
 
 // Whether Embree may hit another triangle at the same edge too, due to rounding. A shared edge
 // needs a bound of a few 2⁻²⁴; this one includes edges that meet without common vertices. About one
@@ -119,178 +87,17 @@ void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
 // Relative. Above the error of Embree's approximate reciprocal, which is a few 2⁻²⁴.
 constexpr float kRounding = 0x1p-19f;
 
-// Number of triangles for which the tree is built in about 10 ms, acceptable during an edit.
-constexpr size_t kQuicklyBuilt = 50000;
-
 }  // namespace
 
-// One geometry per object, with the object's index as its id, in two Embree scenes. The first has
-// one tree over all triangles, built with medium quality (surface area heuristic); it accepts
-// packets flagged as coherent. The second is small: a tree of trees for the objects that moved
-// since, which is updated quickly. If the first scene can be rebuilt quickly, the moved objects are
-// removed from it; otherwise a filter ignores them there. The hits do not depend on the scene in
-// which an object is.
-//
-// Embree 3.13 does not return from coherent packets in a tree of trees.
 struct RayCaster::Impl {
   const RenderScene& scene;
-  EmbreeError error;  // the first one since check()
-  RTCDevice device = nullptr;
-  RTCScene still = nullptr, moving = nullptr;
-  std::vector<uint8_t> isMoving;  // by object: it is in the scene `moving`
-  std::vector<uint32_t> movers;
-  Bounds movingBounds;  // bounds of the movers, slightly enlarged
-  struct Passing {
-    bool isClear, isMasked;
-    bool operator==(const Passing&) const = default;
-  };
-  std::vector<Passing> passing;  // by object, when the tree was built
+  EmbreeScenes embree;
 
-  explicit Impl(const RenderScene& s) : scene(s) {
-    // A fixed instruction set, so that rays give bit-equal results on all machines.
-    device = rtcNewDevice("isa=avx2,set_affinity=0");
-    if (device == nullptr)
-      throw std::runtime_error("Embree cannot start: it needs a processor with AVX2");
-    rtcSetDeviceErrorFunction(device, onError, &error);
-  }
-  ~Impl() {
-    release();
-    rtcReleaseDevice(device);
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-
-  void release() {
-    for (RTCScene* s : {&still, &moving})
-      if (*s != nullptr) rtcReleaseScene(std::exchange(*s, nullptr));
-  }
-
-  void check() {
-    if (error.code == RTC_ERROR_NONE) return;
-    const EmbreeError e = std::exchange(error, {});
-    if (e.code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(e.code)) + ": " +
-                             e.text);
-  }
-
-  void commit(RTCScene embree) {
-    rtcCommitScene(embree);
-    check();
-  }
-
-  Passing passingOf(uint32_t object) const {
-    const Material& m = scene.materials[static_cast<size_t>(scene.objects[object].material)];
-    return {m.isClear(), m.alphaMode == AlphaMode::mask};
-  }
-
-  void copyVertices(RTCGeometry geometry, const RenderObject& o) const {
-    auto* to = static_cast<vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
-    std::copy_n(scene.positions.begin() + o.firstVertex, o.vertexCount, to);
-  }
-  // Copies the indices too: a mirrored object has a different vertex order.
-  void copyIndices(RTCGeometry geometry, const RenderObject& o) const {
-    auto* to = static_cast<uint32_t*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0));
-    std::transform(scene.indices.begin() + o.firstIndex,
-                   scene.indices.begin() + o.firstIndex + o.indexCount, to,
-                   [&](uint32_t i) { return i - o.firstVertex; });
-  }
-
-  void add(RTCScene embree, uint32_t object) {
-    if (passing[object].isClear) return;
-    const RenderObject& o = scene.objects[object];
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
-                            o.vertexCount);
-    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                            3 * sizeof(uint32_t), o.triangleCount());
-    if (error.code != RTC_ERROR_NONE) {  // no memory for the buffers
-      rtcReleaseGeometry(geometry);
-      check();
-    }
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-    copyVertices(geometry, o);
-    copyIndices(geometry, o);
-    // The scene belongs to the FrameRenderer, which outlives this object; the filter only reads it.
-    rtcSetGeometryUserData(geometry, const_cast<RenderScene*>(&scene));
-    if (passing[object].isMasked) {
-      rtcSetGeometryIntersectFilterFunction(geometry, alphaFilter);
-      rtcSetGeometryOccludedFilterFunction(geometry, alphaFilter);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(embree, geometry, object);
-    rtcReleaseGeometry(geometry);
-  }
-
-  void build() {
-    release();
-    still = rtcNewScene(device);
-    moving = rtcNewScene(device);
-    const RTCSceneFlags flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
-    rtcSetSceneFlags(still, flags);
-    rtcSetSceneFlags(moving, flags | RTC_SCENE_FLAG_DYNAMIC);
-    rtcSetSceneBuildQuality(moving, RTC_BUILD_QUALITY_LOW);
-    isMoving.assign(scene.objects.size(), 0);
-    movers.clear();
-    movingBounds = Bounds();
-    passing.clear();
-    for (uint32_t i = 0; i < scene.objects.size(); ++i) passing.push_back(passingOf(i));
-    for (uint32_t i = 0; i < scene.objects.size(); ++i) add(still, i);
-    commit(still);
-    commit(moving);
-  }
-
-  // Objects at rest return to the first scene when other objects start to move, if they are large
-  // enough to slow rays down.
-  bool shouldJoin(const std::vector<uint32_t>& moved) const {
-    constexpr size_t kFew = 10000, kShare = 20;  // triangles; one in this many
-    if (std::any_of(moved.begin(), moved.end(), [&](uint32_t i) { return isMoving[i] != 0; }))
-      return false;
-    size_t triangles = 0;
-    for (const uint32_t i : movers) triangles += scene.objects[i].triangleCount();
-    return triangles > std::max(kFew, scene.triangleCount() / kShare);
-  }
-
-  void update(const RenderSceneChanges& changes) {
-    bool anew = changes.rebuilt;
-    for (uint32_t i = 0; !anew && changes.materials && i < passing.size(); ++i)
-      anew = passing[i] != passingOf(i);
-    if (anew || shouldJoin(changes.movedObjects)) {
-      build();
-      return;
-    }
-    if (changes.movedObjects.empty()) return;
-    bool hasMore = false;
-    for (const uint32_t i : changes.movedObjects) {
-      if (passing[i].isClear) continue;
-      if (isMoving[i] == 0) {
-        isMoving[i] = 1;
-        movers.push_back(i);
-        add(moving, i);
-        hasMore = true;
-        if (isQuicklyBuilt()) rtcDisableGeometry(rtcGetGeometry(still, i));
-        continue;
-      }
-      RTCGeometry geometry = rtcGetGeometry(moving, i);
-      copyVertices(geometry, scene.objects[i]);
-      copyIndices(geometry, scene.objects[i]);
-      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0);
-      rtcCommitGeometry(geometry);
-    }
-    if (hasMore && isQuicklyBuilt()) commit(still);
-    commit(moving);
-    movingBounds = Bounds();
-    for (const uint32_t i : movers) movingBounds.add(scene.objects[i].bounds);
-    const vec3 slack(rayEpsilon(movingBounds.min) + rayEpsilon(movingBounds.max));
-    movingBounds.min -= slack;
-    movingBounds.max += slack;
-  }
-  // Otherwise a filter ignores moved objects at their old position, with a cost per hit.
-  bool isQuicklyBuilt() const { return scene.triangleCount() <= kQuicklyBuilt; }
+  explicit Impl(const RenderScene& s) : scene(s), embree(s) {}
 
   // Whether the ray may hit a moved object: most rays do not and skip the second scene.
   bool mayMeetMovers(const Ray& ray) const {
-    return !movers.empty() && mayTouch(ray, movingBounds);
+    return embree.hasMovers() && mayTouch(ray, embree.movingBounds());
   }
 
   // A query in one of the two scenes.
@@ -305,7 +112,7 @@ struct RayCaster::Impl {
     Query q{{}, this, ofStill, which == Surfaces::seen};
     rtcInitIntersectContext(&q.embree);
     if (isCoherent) q.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    if (q.seenOnly || (ofStill && !movers.empty() && !isQuicklyBuilt())) q.embree.filter = passOver;
+    if (q.seenOnly || (ofStill && embree.mustFilterStill())) q.embree.filter = passOver;
     return q;
   }
 
@@ -326,7 +133,7 @@ struct RayCaster::Impl {
     for (unsigned int i = 0; i < a->N; ++i) {
       if (a->valid[i] != -1) continue;
       const uint32_t object = RTCHitN_geomID(a->hit, a->N, i);
-      if (q.isOfStill && q.impl->isMoving[object] != 0) {
+      if (q.isOfStill && !q.impl->embree.isInStill(object)) {
         a->valid[i] = 0;
         continue;
       }
@@ -355,21 +162,21 @@ struct RayCaster::Impl {
 };
 
 RayCaster::RayCaster(const RenderScene& scene) : impl_(std::make_unique<Impl>(scene)) {
-  impl_->build();
+  impl_->embree.build();
 }
 
 RayCaster::~RayCaster() = default;
 
-void RayCaster::update(const RenderSceneChanges& changes) { impl_->update(changes); }
+void RayCaster::update(const RenderSceneChanges& changes) { impl_->embree.update(changes); }
 
 Hit RayCaster::intersect(const Ray& ray, Surfaces which) const {
   RTCRayHit r{toEmbree(ray), {}};
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   Impl::Query still = impl_->query(which, true);
-  rtcIntersect1(impl_->still, &still.embree, &r);
+  rtcIntersect1(impl_->embree.still(), &still.embree, &r);
   if (impl_->mayMeetMovers({ray.origin, ray.tNear, ray.direction, r.ray.tfar})) {
     Impl::Query moving = impl_->query(which, false);
-    rtcIntersect1(impl_->moving, &moving.embree, &r);
+    rtcIntersect1(impl_->embree.moving(), &moving.embree, &r);
   }
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   if (isAtEdge(r.hit.u, r.hit.v)) {
@@ -381,10 +188,10 @@ Hit RayCaster::intersect(const Ray& ray, Surfaces which) const {
 bool RayCaster::occluded(const Ray& ray) const {
   RTCRay r = toEmbree(ray);
   Impl::Query still = impl_->query(Surfaces::all, true);
-  rtcOccluded1(impl_->still, &still.embree, &r);
+  rtcOccluded1(impl_->embree.still(), &still.embree, &r);
   if (!(r.tfar < 0.0f) && impl_->mayMeetMovers(ray)) {
     Impl::Query moving = impl_->query(Surfaces::all, false);
-    rtcOccluded1(impl_->moving, &moving.embree, &r);
+    rtcOccluded1(impl_->embree.moving(), &moving.embree, &r);
   }
   return r.tfar < 0.0f;
 }
@@ -392,7 +199,7 @@ bool RayCaster::occluded(const Ray& ray) const {
 Hit RayCaster::Impl::leastHitAt(const Ray& ray, Surfaces which, float t) const {
   Hit least;
   for (const bool ofStill : {true, false}) {
-    if (!ofStill && movers.empty()) break;
+    if (!ofStill && !embree.hasMovers()) break;
     RTCRayHit r{toEmbree(ray), {}};
     r.ray.tnear = std::max(ray.tNear, t * (1.0f - kRounding));
     r.ray.tfar = std::min(ray.tFar, t * (1.0f + kRounding));
@@ -401,7 +208,7 @@ Hit RayCaster::Impl::leastHitAt(const Ray& ray, Surfaces which, float t) const {
     q.embree.filter = keepLeast;
     q.rays = &ray;
     q.least = &least;
-    rtcIntersect1(ofStill ? still : moving, &q.embree, &r);
+    rtcIntersect1(ofStill ? embree.still() : embree.moving(), &q.embree, &r);
   }
   return least;
 }
@@ -417,14 +224,14 @@ void RayCaster::Impl::leastHitsAt(std::span<const Ray, 8> rays, std::span<const 
     r.ray.tfar[i] = std::min(rays[i].tFar, t[i] * (1.0f + kRounding));
   }
   for (const bool ofStill : {true, false}) {
-    if (!ofStill) keepTouching(r.ray, movingBounds, valid);
+    if (!ofStill) keepTouching(r.ray, embree.movingBounds(), valid);
     if (std::none_of(valid, valid + 8, [](int lane) { return lane != 0; })) break;
     Query q = query(Surfaces::all, ofStill, ofStill);
     q.embree.filter = keepLeast;
     q.rays = rays.data();
     q.least = least;
-    rtcIntersect8(valid, ofStill ? still : moving, &q.embree, &r);
-    if (movers.empty()) break;
+    rtcIntersect8(valid, ofStill ? embree.still() : embree.moving(), &q.embree, &r);
+    if (!embree.hasMovers()) break;
   }
 }
 
@@ -434,12 +241,12 @@ void RayCaster::Impl::cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRay
   setRays(rays, r, valid);
   std::copy_n(r.ray.tfar, 8, tFar);
   Query ofStill = query(which, true, true);
-  rtcIntersect8(valid, still, &ofStill.embree, &r);
-  if (movers.empty()) return;
-  keepTouching(r.ray, movingBounds, valid);
+  rtcIntersect8(valid, embree.still(), &ofStill.embree, &r);
+  if (!embree.hasMovers()) return;
+  keepTouching(r.ray, embree.movingBounds(), valid);
   Query ofMoving = query(which, false);
   if (std::any_of(valid, valid + 8, [](int lane) { return lane != 0; }))
-    rtcIntersect8(valid, moving, &ofMoving.embree, &r);
+    rtcIntersect8(valid, embree.moving(), &ofMoving.embree, &r);
 }
 
 void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,

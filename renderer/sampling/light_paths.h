@@ -42,9 +42,9 @@ class LightPaths {
   // are empty, the scene is at rest: over several frames the set becomes bit-equal to that of
   // generateVpls(), independent of the history. If too few paths of a light can stay, all its paths
   // are walked again at once. Rays are traced for at most mostPaths paths (brightness × waiting
-  // time decides; 0: no limit). After a change of the counts or of the list of objects, all paths
-  // are walked at once. Changes of gains alone count as rest. Returns whether the set may have
-  // changed.
+  // time decides; 0: no limit). After a change of the counts, or if the scene was rebuilt, all
+  // paths are walked at once. Changes of gains alone count as rest. Returns whether the set may
+  // have changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
               std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
               int mostPaths = 0);

@@ -38,6 +38,7 @@ void SurfaceSampler::update(const RenderScene& scene, const RenderSceneChanges& 
     triangleEnds_.assign(scene.objects.size(), {});
     tbb::parallel_for(size_t{0}, scene.objects.size(), [&](size_t i) { measure(scene, i); });
   } else {
+    triangleEnds_.resize(scene.objects.size());
     for (const uint32_t object : changes.movedObjects) measure(scene, object);
   }
   if (changes.rebuilt || changes.materials || !changes.movedObjects.empty()) sum(scene);

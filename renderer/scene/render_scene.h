@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "renderer/scene/scene.h"
@@ -12,7 +13,8 @@
 
 namespace lamplighter {
 
-// One primitive of one node, or the surface of one area light.
+// One primitive of one node, or the surface of one area light. Empty while it is hidden, and after
+// its node was deleted: without triangles, bounds or node.
 struct RenderObject {
   NodeId node = kNoNode;
   int material = 0;  // index into RenderScene::materials
@@ -25,6 +27,20 @@ struct RenderObject {
   uint32_t link = 0;                        // of its own light if it emits (light_linking.h)
   uint32_t leftOutBy = 0;                   // one bit per link that gives it no light
   uint32_t triangleCount() const { return indexCount / 3; }
+  bool isEmpty() const { return indexCount == 0; }
+};
+
+// What an entry of RenderScene::objects is reserved for, while it is empty too. An entry never gets
+// another surface, so what is known of its mesh stays valid.
+struct ObjectSlot {
+  NodeId node = kNoNode;
+  std::shared_ptr<const Mesh> mesh;  // null: the surface of an area light
+  uint32_t primitive = 0;            // of the mesh
+  AreaShape shape = AreaShape::rectangle;
+  vec2 size{0.0f};  // of the area light, when it was placed last
+  // Its part of the vertices and indices of the scene. No vertices: it was never shown.
+  uint32_t firstVertex = 0, vertexCount = 0;
+  uint32_t firstIndex = 0, indexCount = 0;
 };
 
 // A punctual light in world space.
@@ -42,6 +58,9 @@ struct RenderPunctual {
   bool operator==(const RenderPunctual&) const = default;
 };
 
+// Objects keep their index until the scene is rebuilt: hidden and deleted ones become empty, new
+// ones are appended, and one that comes back takes its old place if it has the same surface.
+// Objects that are not empty are always in the order of nodes and primitives.
 struct RenderScene {
   // Per vertex, world space. tangents, uv and colors always have positions.size() entries; missing
   // ones are a zero tangent, zero uv and white.
@@ -52,6 +71,7 @@ struct RenderScene {
   std::vector<vec4> colors;
   std::vector<uint32_t> indices;
   std::vector<RenderObject> objects;
+  std::vector<ObjectSlot> slots;  // by object
   // Scene::materials, then the default material, then one for each area light (albedo 0), then a
   // copy of each of Scene::materials without emission, for meshes that are switched off.
   std::vector<Material> materials;
@@ -67,7 +87,12 @@ struct RenderScene {
   float unit = 1.0f;      // of all lengths here: a power of two, in metres of Scene
   Bounds bounds;          // of all objects
 
-  size_t triangleCount() const { return indices.size() / 3; }
+  // Of all objects. O(objects).
+  size_t triangleCount() const {
+    size_t count = 0;
+    for (const RenderObject& o : objects) count += o.triangleCount();
+    return count;
+  }
 
   // Whether cameras see only the front faces of the object: back faces of single-sided materials
   // are culled (glTF 2.0, section 3.9), so that the user can look into a closed room from outside.
@@ -80,12 +105,14 @@ struct RenderScene {
 
 // What update() changed, for code that keeps copies of the scene (Embree, GL buffers).
 struct RenderSceneChanges {
-  bool rebuilt = false;                // every array is new
-  std::vector<uint32_t> movedObjects;  // vertex attributes of these changed in place
-  std::vector<Bounds> movedBounds;     // bounds of each moved object before the move, in the order
-                                       // of movedObjects
-  bool materials = false;              // parameters of materials changed (not the number of
-                                       // materials), beyond the radiance that they emit
+  bool rebuilt = false;  // every array is new
+  // Objects whose vertices changed, or that came or went. New ones may be behind the last object.
+  std::vector<uint32_t> movedObjects;
+  // Bounds of each moved object before, in the order of movedObjects; empty: it came.
+  std::vector<Bounds> movedBounds;
+  bool objects = false;        // some moved objects came or went; materials may have other indices
+  bool materials = false;      // parameters of materials changed (not the number of
+                               // materials), beyond the radiance that they emit
   std::vector<int> emissions;  // sorted; materials of which only the emitted radiance changed
   // Sorted; objects whose emission was switched on or off: they have another material, which
   // differs only in its emission.
@@ -98,7 +125,8 @@ struct RenderSceneChanges {
   bool references = false;
 
   bool none() const {
-    return !surfaces() && emissions.empty() && switchedObjects.empty() && !lights && !sky && !gains;
+    return !surfaces() && !objects && emissions.empty() && switchedObjects.empty() && !lights &&
+           !sky && !gains;
   }
   // Whether only the brightness of lights changed.
   bool onlyBrightness() const { return !none() && !surfaces() && !lights && !sky; }
@@ -111,8 +139,9 @@ struct RenderSceneChanges {
   void merge(const RenderSceneChanges& later);
 };
 
-// Updates `render` for the changes of `scene`, in the present unit. Never throws; a scene without
-// nodes has no objects.
+// Updates `render` for the changes of `scene`, in the present unit. Adding, removing, hiding and
+// showing nodes changes only their objects; other changes of structure, and everything, rebuild the
+// scene. Never throws; a scene without nodes has no objects.
 RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes);
 
 // Builds `render` anew in another unit. The result is exact: every length is multiplied by a power

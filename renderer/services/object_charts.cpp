@@ -48,7 +48,7 @@ MeshAtlas computeAtlas(const RenderScene& scene, const RenderObject& o, const Ow
 // Sets the space and the key of an object.
 void ObjectCharts::place(const RenderScene& scene, uint32_t object) {
   const RenderObject& o = scene.objects[object];
-  const std::optional<OwnSpace> space = o.isAreaLight ? std::nullopt : ownSpaceOf(o);
+  const std::optional<OwnSpace> space = o.isAreaLight || o.isEmpty() ? std::nullopt : ownSpaceOf(o);
   const OwnSpace before = std::exchange(objects_[object].space, space.value_or(OwnSpace()));
   const bool isSame = keys_[object] && space && before.stretch == space->stretch &&
                       densityOf(before, 1.0f) == densityOf(*space, 1.0f);
@@ -68,6 +68,8 @@ std::span<const ObjectAtlas> ObjectCharts::find(const RenderScene& scene, float 
   } else if (changes.movedObjects.empty()) {
     return objects_;
   } else {
+    objects_.resize(scene.objects.size());
+    keys_.resize(scene.objects.size());
     for (const uint32_t object : changes.movedObjects) place(scene, object);
   }
 

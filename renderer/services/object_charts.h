@@ -40,8 +40,8 @@ class ObjectCharts {
 
   // To be called with all changes of the scene between calls of find().
   void outdate(const RenderSceneChanges& changes) { changes_.merge(changes); }
-  // By object. Missing layouts are loaded or computed, in parallel. Area lights, and objects that
-  // their node flattens, have none. Valid until the next call.
+  // By object. Missing layouts are loaded or computed, in parallel. Area lights, empty objects, and
+  // objects that their node flattens, have none. Valid until the next call.
   std::span<const ObjectAtlas> find(const RenderScene& scene, float texelsPerMetre);
 
   size_t computed() const { return computed_; }  // layouts since construction

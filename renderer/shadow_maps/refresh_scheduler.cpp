@@ -91,14 +91,19 @@ std::vector<MoverFinder::Mover> MoverFinder::update(const RenderScene& scene,
   if (!objects_.empty() && !changes.rebuilt && !changes.materials && changes.movedObjects.empty()) {
     return movers;
   }
+  std::vector<bool> hasMoved(scene.objects.size(), false);
+  for (const uint32_t object : changes.movedObjects) hasMoved[object] = true;
   std::vector<Caster> now;
+  std::vector<bool> moved;
   now.reserve(scene.objects.size());
-  for (const RenderObject& o : scene.objects) now.push_back(casterOf(scene, o));
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].isEmpty()) continue;
+    now.push_back(casterOf(scene, scene.objects[i]));
+    moved.push_back(hasMoved[i]);
+  }
   // Both lists have the order of the nodes, so one pass finds the common objects and skips removed
   // and new ones.
   size_t old = 0;
-  std::vector<bool> moved(now.size(), false);
-  for (const uint32_t object : changes.movedObjects) moved[object] = true;
   for (size_t i = 0; i < now.size(); ++i) {
     const auto same = std::find_if(objects_.begin() + static_cast<ptrdiff_t>(old), objects_.end(),
                                    [&](const Caster& c) { return c.node == now[i].node; });

@@ -1,5 +1,5 @@
-// Finds unchanged objects across a rebuild of the scene. Adding, removing or hiding an object
-// renumbers all objects but does not change the others.
+// Finds unchanged objects across a rebuild of the scene, which renumbers all objects but does not
+// change most of them.
 #pragma once
 
 #include <vector>

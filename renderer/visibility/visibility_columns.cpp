@@ -83,7 +83,7 @@ VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
   };
   for (const Waiting& w : waiting_[i]) {
     column.moversHidNothing = column.moversHidNothing && !w.couldHide;
-    if (w.object == kNone) {
+    if (w.object == kNone || patches_[static_cast<size_t>(w.object)].bounds.empty()) {
       add(w.before);
       continue;
     }

@@ -42,21 +42,26 @@ void VisibilityDatabase::addWaiting(int object, const Caster& before, bool could
   }
 }
 
-// Finds the topologies that are missing or of another shape.
+// Finds the topologies that are missing or of another shape. Objects that became empty keep theirs.
 void VisibilityDatabase::findTopologies(const RenderScene& scene, std::span<const uint32_t> objects,
                                         bool areMoving) {
   std::vector<uint32_t> missing;
   for (const uint32_t object : objects) {
     const auto& topology = topologies_[object];
-    if (!topology || !(topology->shape == shapeOf(scene.objects[object])))
-      missing.push_back(object);
+    const RenderObject& o = scene.objects[object];
+    if (!topology || (!o.isEmpty() && !(topology->shape == shapeOf(o)))) missing.push_back(object);
   }
   const auto found = meshes_.find(scene, missing, areMoving);
   for (size_t i = 0; i < missing.size(); ++i) topologies_[missing[i]] = found[i];
 }
 
 void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) {
-  patches_[object] = placePatches(scene, object, *topologies_[object]);
+  if (scene.objects[object].isEmpty()) {
+    patches_[object] = ObjectPatches();
+    patches_[object].revision.advance();
+  } else {
+    patches_[object] = placePatches(scene, object, *topologies_[object]);
+  }
   const size_t patches = patches_[object].patches.size();
   rows_[object].assign(patches, Row());
   divided_[object].assign(patches, 0);
@@ -92,6 +97,9 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
   }
   // Those of removed objects may be found again, as after a change of materials.
   const auto topologiesBefore = topologies_;
+  // Empty objects are equal.
+  for (size_t i = 0; i < identities_.size(); ++i)
+    if (identities_[i].node == kNoNode) topologies_[i] = nullptr;
   reorder(topologies_);
   reorder(patches_);
   reorder(rows_);
@@ -104,27 +112,45 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
   occluders_.resize(scene.objects.size());
   std::vector<uint32_t> fresh;
   for (size_t old = 0; old < becomes.size(); ++old) {
-    if (becomes[old] != kNone) continue;
+    if (becomes[old] != kNone || castersBefore[old].box.empty()) continue;
     addWaiting(kNone, castersBefore[old], true);
     moves.push_back({castersBefore[old].box, Bounds()});
   }
+  std::vector<uint32_t> movers;
   for (uint32_t i = 0; i < scene.objects.size(); ++i) {
     if (same[i] != kNone) {
       for (Chart& chart : patches_[i].charts) chart.object = i;
       continue;
     }
     fresh.push_back(i);
+    if (scene.objects[i].isEmpty()) continue;
+    movers.push_back(i);
     addWaiting(static_cast<int>(i), Caster(), false);
     moves.push_back({Bounds(), scene.objects[i].bounds});
   }
   fillWithoutEntries(scene);
-  findTopologies(scene, fresh, false);
+  std::vector<uint32_t> all(scene.objects.size());
+  std::iota(all.begin(), all.end(), 0u);
+  findTopologies(scene, all, false);
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) { placeObject(scene, fresh[i]); });
   tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(scene.objects.size()),
                     [&](uint32_t i) { occluders_.place(scene, i, *topologies_[i], patches_[i]); });
   // If all objects are new, none are treated as movers.
-  setMovers(fresh.size() < scene.objects.size() ? fresh : std::vector<uint32_t>());
+  setMovers(fresh.size() < scene.objects.size() ? movers : std::vector<uint32_t>());
   forgetOthers();
+}
+
+// Adds empty objects.
+void VisibilityDatabase::grow(size_t objects) {
+  topologies_.resize(objects);
+  identities_.resize(objects);
+  patches_.resize(objects);
+  rows_.resize(objects);
+  divided_.resize(objects);
+  changed_.resize(objects);
+  given_.resize(objects);
+  leftOutBy_.resize(objects);
+  occluders_.resize(objects);
 }
 
 void VisibilityDatabase::setMovers(std::span<const uint32_t> objects) {
@@ -135,10 +161,22 @@ void VisibilityDatabase::setMovers(std::span<const uint32_t> objects) {
   forgetOthers();
 }
 
+// Some of them may come or go.
 void VisibilityDatabase::takeMoved(const RenderScene& scene, const RenderSceneChanges& changes,
                                    std::vector<Move>& moves) {
   const std::vector<uint32_t>& moved = changes.movedObjects;
-  setMovers(moved);
+  std::vector<uint32_t> movers;
+  bool anyIsOther = false;
+  for (const uint32_t i : moved) {
+    const bool isGone = scene.objects[i].isEmpty();
+    if (!isGone) movers.push_back(i);
+    anyIsOther = anyIsOther || isGone != patches_[i].bounds.empty();
+  }
+  setMovers(movers);
+  if (anyIsOther) {
+    forgetOthers();
+    fillWithoutEntries(scene);
+  }
   const auto placeOf = [&](uint32_t i) {
     const std::span<const Bounds> groups = occluders_.groups(i);
     return MoverPlace{occluders_.caster(i), {groups.begin(), groups.end()}};
@@ -160,6 +198,7 @@ void VisibilityDatabase::takeMoved(const RenderScene& scene, const RenderSceneCh
                            occluders_.place(scene, object, *topologies_[object], patches_[object]);
                          });
   });
+  if (anyIsOther) return;
   std::vector<MoverPlace> now;
   for (const uint32_t i : movers_) now.push_back(placeOf(i));
   if (const MoverPath::Mark by = path_.advance(before, now); by > 0) lowerMarks(by);
@@ -169,9 +208,10 @@ void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneCha
   moves_.clear();
   cameFrom_.resize(scene.objects.size());
   std::iota(cameFrom_.begin(), cameFrom_.end(), 0);
-  if (changes.rebuilt || patches_.size() != scene.objects.size()) {
+  if (changes.rebuilt || patches_.size() > scene.objects.size()) {
     matchObjects(scene, moves_);
   } else {
+    grow(scene.objects.size());
     if (changes.materials) matchObjects(scene, moves_);
     if (!changes.movedObjects.empty()) takeMoved(scene, changes, moves_);
   }

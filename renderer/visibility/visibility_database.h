@@ -186,6 +186,7 @@ class VisibilityDatabase {
     return given_[object][static_cast<size_t>(root)];
   }
   void matchObjects(const RenderScene& scene, std::vector<Move>& moves);
+  void grow(size_t objects);
   void takeMoved(const RenderScene& scene, const RenderSceneChanges& changes,
                  std::vector<Move>& moves);
   void setMovers(std::span<const uint32_t> objects);

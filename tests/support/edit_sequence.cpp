@@ -8,8 +8,10 @@
 namespace lamplighter::test {
 
 void PrintTo(const EditSequence& edits, std::ostream* out) {
-  static const char* const kNames[] = {"move", "turn",   "scale",    "mirror", "hide or show",
-                                       "add",  "remove", "brighten", "kind of"};
+  static const char* const kNames[] = {
+      "move",       "turn",     "scale",    "mirror",  "hide or show",
+      "add",        "remove",   "brighten", "kind of", "add a light after",
+      "remove any", "duplicate"};
   for (const Edit& e : edits)
     *out << (e.together ? " + " : "\n  ") << kNames[static_cast<int>(e.kind)] << " node " << e.node
          << " by (" << e.amount.x << ", " << e.amount.y << ", " << e.amount.z << ")";
@@ -30,6 +32,16 @@ EditSequence randomEdits(int count, uint32_t seed) {
     e.amount.z = unit();
     e.together = random() % 3 == 0;
   }
+  return edits;
+}
+
+EditSequence randomStructureEdits(int count, uint32_t seed) {
+  constexpr Edit::Kind kKinds[] = {
+      Edit::Kind::hideOrShow, Edit::Kind::hideOrShow, Edit::Kind::add, Edit::Kind::addLight,
+      Edit::Kind::removeAny,  Edit::Kind::duplicate,  Edit::Kind::move};
+  EditSequence edits = randomEdits(count, seed);
+  for (size_t i = 0; i < edits.size(); ++i)
+    edits[i].kind = kKinds[(edits[i].node / 64 + i) % std::size(kKinds)];
   return edits;
 }
 
@@ -68,6 +80,21 @@ void apply(Scene& scene, const Edit& edit) {
     case Edit::Kind::kind:
       node.meshKind = static_cast<MeshKind>((static_cast<int>(node.meshKind) + 1) % 3);
       break;
+    case Edit::Kind::addLight:
+      addRectangleLight(scene, vec3(1.5f, 0.5f, 1.5f) * edit.amount + vec3(0.0f, 2.5f, 0.0f),
+                        vec2(0.5f, 0.4f), vec3(4.0f) + edit.amount);
+      break;
+    case Edit::Kind::removeAny:
+      if (scene.nodes.size() > 2)
+        scene.nodes.erase(scene.nodes.begin() + static_cast<ptrdiff_t>(index));
+      break;
+    case Edit::Kind::duplicate: {
+      Node copy = node;
+      copy.id = scene.nextId++;
+      copy.local.translation += 0.5f * edit.amount;
+      scene.nodes.push_back(std::move(copy));
+      break;
+    }
     case Edit::Kind::add:
       break;
   }

@@ -12,7 +12,20 @@ namespace lamplighter::test {
 
 struct Edit {
   bool operator==(const Edit&) const = default;
-  enum class Kind { move, turn, scale, mirror, hideOrShow, add, remove, brighten, kind };
+  enum class Kind {
+    move,
+    turn,
+    scale,
+    mirror,
+    hideOrShow,
+    add,
+    remove,  // no area light
+    brighten,
+    kind,
+    addLight,
+    removeAny,
+    duplicate
+  };
   Kind kind = Kind::move;
   uint32_t node = 0;      // index, modulo the number of nodes
   vec3 amount{0.0f};      // in [−1, 1]³
@@ -22,6 +35,8 @@ using EditSequence = std::vector<Edit>;
 void PrintTo(const EditSequence& edits, std::ostream* out);
 
 EditSequence randomEdits(int count, uint32_t seed);
+// The same, of what adds, removes, hides and shows nodes, and of moves.
+EditSequence randomStructureEdits(int count, uint32_t seed);
 void apply(Scene& scene, const Edit& edit);
 
 // Runs check(sequence), which returns whether the test passes. Returns an empty sequence if it

@@ -11,6 +11,18 @@
 namespace lamplighter::gl {
 namespace {
 
+// Room for objects that come later.
+size_t withMore(size_t count) { return count + count / 16 + 1024; }
+
+template <typename T>
+Buffer makeRoom(size_t count, uint64_t& bytes) {
+  Buffer buffer = Buffer::make();
+  const auto size = static_cast<GLsizeiptr>(count * sizeof(T));
+  glNamedBufferStorage(buffer.name(), size, nullptr, GL_DYNAMIC_STORAGE_BIT);
+  bytes += static_cast<uint64_t>(size);
+  return buffer;
+}
+
 // Allocates a buffer of the vector's size; never empty, because a buffer without storage cannot be
 // bound.
 template <typename T>
@@ -29,6 +41,13 @@ void uploadRange(const Buffer& buffer, const std::vector<T>& values, uint32_t fi
                  uint32_t count) {
   glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(first * sizeof(T)),
                        static_cast<GLsizeiptr>(count * sizeof(T)), values.data() + first);
+}
+
+void uploadLeftOut(const Buffer& buffer, const RenderObject& o) {
+  if (o.isEmpty()) return;
+  const std::vector<uint32_t> values(o.triangleCount(), o.leftOutBy);
+  glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(o.firstIndex / 3 * sizeof(uint32_t)),
+                       static_cast<GLsizeiptr>(values.size() * sizeof(uint32_t)), values.data());
 }
 
 shared::TextureLookup lookup(const TextureRef& ref) {
@@ -84,37 +103,64 @@ GlScene::GlScene() : vertexArray_(VertexArray::make()) {
 void GlScene::update(const RenderScene& scene, const RenderSceneChanges& changes) {
   const bool all = changes.rebuilt || scene_ != &scene;
   scene_ = &scene;
-  if (all) {
+  if (all || !hasRoom()) {
     uploadGeometry();
   } else {
-    for (const uint32_t i : changes.movedObjects) uploadObject(scene.objects[i]);
+    for (size_t i = 0; i < changes.movedObjects.size(); ++i)
+      uploadObject(changes.movedObjects[i], changes.movedBounds[i].empty());
   }
-  if (all || changes.materials || !changes.emissions.empty() || !changes.switchedObjects.empty())
+  if (all || changes.objects || changes.materials || !changes.emissions.empty() ||
+      !changes.switchedObjects.empty())
     uploadMaterials();
 }
 
-void GlScene::uploadGeometry() {
+bool GlScene::hasRoom() const {
+  return scene_->positions.size() <= vertexRoom_ && scene_->indices.size() <= indexRoom_ &&
+         scene_->objects.size() <= objectRoom_;
+}
+
+void GlScene::allocate() {
   const RenderScene& s = *scene_;
   if (std::max(s.positions.size(), s.indices.size() / 3) * sizeof(vec3) > mostStorageBytes()) {
     throw InputError(
         "scene", std::to_string(s.triangleCount()) + " triangles exceed the limit of this driver",
         "use --backend cpu");
   }
+  const size_t most = mostStorageBytes() / sizeof(vec3);
+  vertexRoom_ = std::min(withMore(s.positions.size()), most);
+  indexRoom_ = std::min(withMore(s.indices.size()), 3 * most);
+  objectRoom_ = withMore(s.objects.size());
   bytes_ = 0;
-  positions_ = upload(s.positions, bytes_);
-  normals_ = upload(s.normals, bytes_);
-  tangents_ = upload(s.tangents, bytes_);
-  uv0_ = upload(s.uv0, bytes_);
-  uv1_ = upload(s.uv1, bytes_);
-  colors_ = upload(s.colors, bytes_);
-  indices_ = upload(s.indices, bytes_);
+  positions_ = makeRoom<vec3>(vertexRoom_, bytes_);
+  normals_ = makeRoom<vec3>(vertexRoom_, bytes_);
+  tangents_ = makeRoom<vec4>(vertexRoom_, bytes_);
+  uv0_ = makeRoom<vec2>(vertexRoom_, bytes_);
+  uv1_ = makeRoom<vec2>(vertexRoom_, bytes_);
+  colors_ = makeRoom<vec4>(vertexRoom_, bytes_);
+  indices_ = makeRoom<uint32_t>(indexRoom_, bytes_);
+  firstIndices_ = makeRoom<uint32_t>(objectRoom_, bytes_);
+  leftOut_ = makeRoom<uint32_t>(s.hasLinks ? indexRoom_ / 3 : 1, bytes_);
+}
+
+void GlScene::uploadGeometry() {
+  allocate();
+  const RenderScene& s = *scene_;
+  const auto vertices = static_cast<uint32_t>(s.positions.size());
+  uploadRange(positions_, s.positions, 0, vertices);
+  uploadRange(normals_, s.normals, 0, vertices);
+  uploadRange(tangents_, s.tangents, 0, vertices);
+  uploadRange(uv0_, s.uv0, 0, vertices);
+  uploadRange(uv1_, s.uv1, 0, vertices);
+  uploadRange(colors_, s.colors, 0, vertices);
+  uploadRange(indices_, s.indices, 0, static_cast<uint32_t>(s.indices.size()));
   std::vector<uint32_t> firstIndices;
-  for (const RenderObject& o : s.objects) firstIndices.push_back(o.firstIndex);
-  firstIndices_ = upload(firstIndices, bytes_);
-  std::vector<uint32_t> leftOut;
-  for (const RenderObject& o : s.objects)
-    if (s.hasLinks) leftOut.insert(leftOut.end(), o.triangleCount(), o.leftOutBy);
-  leftOut_ = upload(leftOut, bytes_);
+  for (const RenderObject& o : s.objects) {
+    firstIndices.push_back(o.firstIndex);
+    uploaded_ += o.isEmpty() ? 0 : 1;
+  }
+  uploadRange(firstIndices_, firstIndices, 0, static_cast<uint32_t>(firstIndices.size()));
+  if (s.hasLinks)
+    for (const RenderObject& o : s.objects) uploadLeftOut(leftOut_, o);
 
   const auto bind = [&](int binding, const Buffer& buffer, size_t stride) {
     glVertexArrayVertexBuffer(vertexArray_.name(), static_cast<GLuint>(binding), buffer.name(), 0,
@@ -130,12 +176,22 @@ void GlScene::uploadGeometry() {
   glVertexArrayElementBuffer(vertexArray_.name(), indices_.name());
 }
 
-void GlScene::uploadObject(const RenderObject& o) {
+void GlScene::uploadObject(uint32_t object, bool isNew) {
+  const RenderObject& o = scene_->objects[object];
+  if (o.isEmpty()) return;
+  ++uploaded_;
   uploadRange(positions_, scene_->positions, o.firstVertex, o.vertexCount);
   uploadRange(normals_, scene_->normals, o.firstVertex, o.vertexCount);
   uploadRange(tangents_, scene_->tangents, o.firstVertex, o.vertexCount);
   // a mirroring transform reverses the winding
   uploadRange(indices_, scene_->indices, o.firstIndex, o.indexCount);
+  if (!isNew) return;
+  uploadRange(uv0_, scene_->uv0, o.firstVertex, o.vertexCount);
+  uploadRange(uv1_, scene_->uv1, o.firstVertex, o.vertexCount);
+  uploadRange(colors_, scene_->colors, o.firstVertex, o.vertexCount);
+  glNamedBufferSubData(firstIndices_.name(), static_cast<GLintptr>(object * sizeof(uint32_t)),
+                       sizeof(uint32_t), &o.firstIndex);
+  if (scene_->hasLinks) uploadLeftOut(leftOut_, o);
 }
 
 void GlScene::uploadMaterials() {
@@ -155,6 +211,7 @@ void GlScene::uploadMaterials() {
   drawn_.clear();
   std::vector<bool> used(s.materials.size(), false);
   for (uint32_t i = 0; i < s.objects.size(); ++i) {
+    if (s.objects[i].isEmpty()) continue;
     const Material& m = s.materials[s.objects[i].material];
     if (m.isClear()) continue;
     used[s.objects[i].material] = true;

@@ -40,11 +40,15 @@ class GlScene {
   // Binds the material's uniform block and textures.
   void bindMaterial(int material) const;
 
+  // Uploads of the vertices of one object since construction.
+  size_t uploadedObjects() const { return uploaded_; }
   uint64_t bytes() const { return bytes_ + textures_.bytes(); }
 
  private:
+  void allocate();
   void uploadGeometry();
-  void uploadObject(const RenderObject& object);
+  bool hasRoom() const;
+  void uploadObject(uint32_t object, bool isNew);
   void uploadMaterials();
 
   const RenderScene* scene_ = nullptr;
@@ -59,6 +63,8 @@ class GlScene {
   std::vector<MaterialTextures> materialTextures_;
   TextureCache textures_;
   std::vector<Drawn> drawn_;
+  size_t vertexRoom_ = 0, indexRoom_ = 0, objectRoom_ = 0;  // of the buffers
+  size_t uploaded_ = 0;
   uint64_t bytes_ = 0;
 };
 

@@ -57,7 +57,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   StageTimer stages(in, kManyLightsStages, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0);
   const bool wantsVisibility = options.useVisibility();
-  if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
+  if (in.changes.rebuilt || in.changes.objects || lights_.slots() != neededFor_)
+    visibilityNeeds_ = 0;
   if (visibilityNeeds_ > options.visibilityBytes()) options.forgoVisibility();
 
   // 1. If only the brightness of lights changed, weigh the shares of a settled picture anew.

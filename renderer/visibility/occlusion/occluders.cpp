@@ -18,6 +18,7 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
   Object& object = objects_[index];
   object = Object();
   object.caster = Caster(patches.bounds, patches.radius);
+  if (o.isEmpty()) return;
   const Material& material = s.materials[static_cast<size_t>(o.material)];
   if (material.isClear()) return;
   object.flat = topology.flat;

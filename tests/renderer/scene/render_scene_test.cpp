@@ -158,7 +158,8 @@ TEST(RenderScene, AHiddenParentHidesItsChildren) {
   scene.find(parent)->visible = false;
   RenderScene render;
   update(render, scene, SceneChanges::all());
-  EXPECT_TRUE(render.objects.empty());
+  EXPECT_EQ(render.triangleCount(), 0u);
+  EXPECT_TRUE(render.positions.empty());
 }
 
 TEST(Surface, TexturesUseTheirWrapMode) {

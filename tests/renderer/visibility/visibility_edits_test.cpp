@@ -62,6 +62,8 @@ TEST_P(EditsOfALevel, GiveTheEntriesOfANewDatabase) {
     return equalsFreshAfterEdits(edits, std::numeric_limits<size_t>::max());
   };
   EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
+  EXPECT_EQ(test::shortestFailing(test::randomStructureEdits(8, GetParam()), check),
+            test::EditSequence());
 }
 
 // Adding and removing objects changes how far all others may be divided.

@@ -46,15 +46,18 @@ Raster::Raster(const RenderScene& scene, const View& view, vec2 jitter, const GB
   }
 
   // Collects entries per task, then sorts them into bins in the order of triangles.
-  const size_t triangles = scene.triangleCount();
+  std::vector<size_t> ends;  // of the triangles of each object, all objects one after another
+  size_t triangles = 0;
+  for (const RenderObject& o : scene.objects) ends.push_back(triangles += o.triangleCount());
   std::vector<std::vector<Entry>> found((triangles + kTrianglesPerTask - 1) / kTrianglesPerTask);
   tbb::parallel_for(size_t{0}, found.size(), [&](size_t task) {
     const size_t first = task * kTrianglesPerTask,
                  last = std::min(first + kTrianglesPerTask, triangles);
-    for (uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const auto from = std::ranges::upper_bound(ends, first) - ends.begin();
+    for (auto object = static_cast<uint32_t>(from); object < ends.size(); ++object) {
       const RenderObject& o = scene.objects[object];
-      const size_t begin = o.firstIndex / 3, end = begin + o.triangleCount();
-      if (end <= first || begin >= last) continue;
+      const size_t end = ends[object], begin = end - o.triangleCount();
+      if (begin >= last) break;
       if (scene.materials[static_cast<size_t>(o.material)].isClear()) continue;
       Entry entry;
       for (size_t i = std::max(begin, first); i < std::min(end, last); ++i)

@@ -47,7 +47,7 @@ class CpuManyLights final : public ManyLightsKernels {
       maps_.castersChange();
     else
       maps_.castersMove(scene, changes);
-    if (isOther) {
+    if (isOther || changes.objects) {
       leftOutBy_.clear();
       for (const RenderObject& o : scene.objects)
         if (scene.hasLinks) leftOutBy_.push_back(o.leftOutBy);

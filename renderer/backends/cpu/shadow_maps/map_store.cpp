@@ -93,15 +93,21 @@ std::vector<uint8_t> MapStore::outdated(const Map& map) const {
   }
   std::vector<Sphere> spheres;
   for (const ObjectMotion& way : ways)
-    for (const Bounds* box : {way.from, way.to}) spheres.push_back({box->centre(), box->radius()});
+    for (const Bounds* box : {way.from, way.to})
+      if (!box->empty()) spheres.push_back({box->centre(), box->radius()});
   return raster_.blocksThatSee(of(map.size).grid, map.light, spheres);
 }
 
 uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
                           std::span<const shared::Vpl> lights, MapSize size,
                           std::span<ShadowMapDiff> changes) {
-  if (castersChanged_ || !movedSince_.empty())
+  if (castersChanged_ || !movedSince_.empty()) {
+    // If it draws now, or no longer, what is not traced may differ in rounding.
+    const bool drew = raster_.isUseful();
     raster_.setScene(scene, castersChanged_ ? nullptr : &movedSince_);
+    if (raster_.isUseful() != drew)
+      for (Map& map : maps_) map.moves.reset();
+  }
   castersChanged_ = false;
   movedSince_.clear();
   std::vector<bool> isNew;

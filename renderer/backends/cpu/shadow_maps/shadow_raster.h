@@ -41,6 +41,9 @@ class ShadowRaster {
   // may have changed.
   void setScene(const RenderScene& scene, const std::vector<uint32_t>* moved = nullptr);
 
+  // Whether maps may be drawn; otherwise all are traced.
+  bool isUseful() const { return isUseful_; }
+
   // By block of the light's map, row by row: 1 if it may see one of the spheres, otherwise 0.
   // Empty: all blocks may.
   static std::vector<uint8_t> blocksThatSee(const ShadowMapGrid& grid, const shared::Vpl& vpl,
