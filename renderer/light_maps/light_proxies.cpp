@@ -227,9 +227,10 @@ void LightProxies::addGroupProxies(Numbers& numbers, const Groups& groups) {
 }
 
 void LightProxies::apply(const vec3& centre, float radius, const Lobes* lobes,
-                         std::span<ShadowMode> bySlot) const {
+                         std::span<ShadowMode> bySlot, const std::vector<int>* only) const {
   std::fill(bySlot.begin() + static_cast<ptrdiff_t>(slots_), bySlot.end(), ShadowMode::skip);
-  for (size_t i = 0; i < slots_; ++i) {
+  for (size_t k = 0; k < (only != nullptr ? only->size() : slots_); ++k) {
+    const size_t i = only != nullptr ? static_cast<size_t>((*only)[k]) : k;
     if (hasMap_[i] != 0 || !readsShadowMap(bySlot[i])) continue;
     if (proxy_[i] >= 0) bySlot[static_cast<size_t>(proxy_[i])] = bySlot[i];
     bySlot[i] = ShadowMode::skip;

@@ -55,8 +55,9 @@ class LightProxies {
 
   // Converts shadow modes: from those that the pixels of a patch would use if all VPLs had maps to
   // those for VPLs and proxies. `lobes`: null for irradiance; otherwise for these glossy lobes.
-  void apply(const vec3& centre, float radius, const Lobes* lobes,
-             std::span<ShadowMode> bySlot) const;
+  // `only`: the slots of the VPLs that are summed; null: all.
+  void apply(const vec3& centre, float radius, const Lobes* lobes, std::span<ShadowMode> bySlot,
+             const std::vector<int>* only = nullptr) const;
 
  private:
   struct Group {

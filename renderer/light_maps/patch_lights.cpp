@@ -17,7 +17,7 @@ void PatchLights::proxy(uint32_t object, int leaf, const LightProxies::Lobes* lo
                         std::span<ShadowMode> bySlot) const {
   if (lightProxies_ == nullptr) return;
   const Patch& patch = patches(object).patches[static_cast<size_t>(leaf)];
-  lightProxies_->apply(patch.centre, patch.radius, lobes, bySlot);
+  lightProxies_->apply(patch.centre, patch.radius, lobes, bySlot, only_ ? &*only_ : nullptr);
 }
 
 // The modes if all lights had maps.
@@ -30,6 +30,13 @@ void PatchLights::shadowModesOfAll(uint32_t object, int leaf, bool mapped,
       {ShadowMode::add, ShadowMode::addShadowed, ShadowMode::skip},
       {ShadowMode::skip, ShadowMode::subtractShadow, ShadowMode::skip}};
   const auto states = visibility_.row(object, leaf);
+  if (only_ && !mapped) {
+    for (const int slot : *only_) {
+      const auto i = static_cast<size_t>(slot);
+      bySlot[i] = kUses[0][states[i]];
+    }
+    return;
+  }
   if (!mapped) {
     for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[0][states[i]];
     return;

@@ -3,7 +3,10 @@
 // light maps and precomputed radiance transfer (4.4).
 #pragma once
 
+#include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
@@ -28,6 +31,10 @@ class PatchLights {
         prt_(prt),
         lightProxies_(lightProxies),
         mergesPasses_(mergesPasses) {}
+
+  // Only the lights in these slots, and their proxies, are summed: uses() leaves the modes of other
+  // lights as they are.
+  void sumOnly(std::vector<int> slots) { only_ = std::move(slots); }
 
   const VisibilityDatabase& visibility() const { return visibility_; }
   const LightMaps* maps() const { return maps_; }
@@ -67,6 +74,7 @@ class PatchLights {
   const PrtLights* prt_;
   const LightProxies* lightProxies_;
   bool mergesPasses_;
+  std::optional<std::vector<int>> only_;
 };
 
 }  // namespace lamplighter

@@ -117,8 +117,11 @@ void LightShares::sumNext(const Inputs& in) {
     if (in.visibility != nullptr) {
       LightProxies proxies;
       proxies.update(lights, in.groups);
+      std::vector<int> slots;
+      for (const shared::Vpl& vpl : vpls) slots.push_back(vpl.slot);
       vpls.insert(vpls.end(), proxies.lights().begin(), proxies.lights().end());
-      const PatchLights patches(*in.visibility, nullptr, in.options.mergePasses, nullptr, &proxies);
+      PatchLights patches(*in.visibility, nullptr, in.options.mergePasses, nullptr, &proxies);
+      patches.sumOnly(std::move(slots));
       image = in.kernels.shareOf(next_, vpls, shading, &patches, in.frame.lightOnly);
     } else {
       image = in.kernels.shareOf(next_, vpls, shading, nullptr, in.frame.lightOnly);

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -118,36 +119,50 @@ SpecularAccumulator::Changes SpecularAccumulator::findChanges(
   return out;
 }
 
+// Gives the parts of these tiles their rows. Rows of patches that are not seen any more stay until
+// all tiles are found anew.
+void SpecularAccumulator::findRows(std::span<const size_t> tiles) {
+  if (tiles.size() == tiles_.size()) {
+    rowOf_.clear();
+    rows_.clear();
+    usesAreKnown_.clear();
+  }
+  for (const size_t tile : tiles)
+    for (Part& part : tiles_[tile].parts) {
+      const auto [it, isNew] = rowOf_.try_emplace(part.patch, static_cast<uint32_t>(rows_.size()));
+      if (isNew) rows_.push_back(part.patch);
+      part.row = it->second;
+    }
+}
+
 // By row: the slots of lights that stay but get another shadow mode; none: the last modes are
 // unknown, or most of them changed.
 std::vector<SpecularAccumulator::OtherUses> SpecularAccumulator::findUses(
     const RenderScene& scene, float leastRoughness, const PatchLights& patches,
     std::span<const uint8_t> stays) {
-  const std::map<Patch, uint32_t> last = std::move(rows_);
-  const size_t lastSlots = slots_;
-  rows_.clear();
-  for (Tile& tile : tiles_)
-    for (Part& part : tile.parts) {
-      part.row = rows_.try_emplace(part.patch, static_cast<uint32_t>(rows_.size())).first->second;
-    }
-  const std::vector<ShadowMode> before = std::move(uses_);
+  if (slots_ != patches.slots()) usesAreKnown_.clear();
   slots_ = patches.slots();
-  uses_.assign(rows_.size() * slots_, ShadowMode::skip);
-  usesBefore_.assign(uses_.size(), ShadowMode::skip);
+  std::vector<uint8_t> inUse(rows_.size(), 0);
+  for (const Tile& tile : tiles_)
+    for (const Part& part : tile.parts) inUse[part.row] = 1;
+  usesAreKnown_.resize(rows_.size(), 0);
+  uses_.resize(rows_.size() * slots_, ShadowMode::skip);
+  usesBefore_.resize(uses_.size(), ShadowMode::skip);
   std::vector<OtherUses> others(rows_.size());
-  for (const auto& [patch, row] : rows_) {
+  tbb::parallel_for(size_t{0}, rows_.size(), [&](size_t row) {
+    const bool wasKnown = std::exchange(usesAreKnown_[row], inUse[row]) != 0;
+    if (inUse[row] == 0) return;
     ShadowMode* uses = uses_.data() + row * slots_;
-    patches.uses(patch.first, patch.second, lobesOf(scene, patch.first, leastRoughness),
-                 {uses, slots_});
-    const auto old = last.find(patch);
-    if (old == last.end() || lastSlots != slots_) continue;
     ShadowMode* was = usesBefore_.data() + row * slots_;
-    std::copy_n(before.data() + old->second * slots_, slots_, was);
+    std::copy_n(uses, slots_, was);
+    const auto& [object, leaf] = rows_[row];
+    patches.uses(object, leaf, lobesOf(scene, object, leastRoughness), {uses, slots_});
+    if (!wasKnown) return;
     std::vector<int>& differ = others[row].emplace();
     for (size_t slot = 0; slot < std::min(slots_, stays.size()); ++slot)
       if (stays[slot] != 0 && uses[slot] != was[slot]) differ.push_back(static_cast<int>(slot));
     if (isMost(differ.size(), slots_)) others[row].reset();
-  }
+  });
   return others;
 }
 
@@ -232,6 +247,7 @@ uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g,
   const std::vector<uint8_t> mayBeGlossy = findGlossy(scene);
   tbb::parallel_for(size_t{0}, found.size(),
                     [&](size_t i) { findParts(scene, g, found[i], mayBeGlossy, patches); });
+  findRows(found);
   std::vector<OtherUses> others;
   if (hasPatches) others = findUses(scene, leastRoughness, *patches, changes.stays);
   constants_ = constants;

@@ -81,6 +81,7 @@ class SpecularAccumulator {
   void findParts(const RenderScene& scene, const GBuffer& gbuffer, size_t tile,
                  std::span<const uint8_t> mayBeGlossy, const PatchLights* patches);
   size_t fitting(std::span<const size_t> tiles, size_t lights, uint64_t mostLightPixels) const;
+  void findRows(std::span<const size_t> tiles);
   using OtherUses = std::optional<std::vector<int>>;
   std::vector<OtherUses> findUses(const RenderScene& scene, float leastRoughness,
                                   const PatchLights& patches, std::span<const uint8_t> stays);
@@ -98,8 +99,10 @@ class SpecularAccumulator {
   std::vector<SpecularLight> lights_;
   std::vector<Tile> tiles_;
   std::map<int, std::vector<float>> oldMaps_;  // by slot: maps of lights_ that changed since
-  std::map<Patch, uint32_t> rows_;
+  std::map<Patch, uint32_t> rowOf_;
+  std::vector<Patch> rows_;
   std::vector<ShadowMode> uses_, usesBefore_;  // rows × slots
+  std::vector<uint8_t> usesAreKnown_;          // by row
   size_t slots_ = 0;
 };
 
