@@ -1,0 +1,27 @@
+// Light that bounces between elements along the links: iterations of Jacobi, without rays.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/surface_light/gather_links.h"
+#include "renderer/surface_light/light_smoothing.h"
+
+namespace lamplighter {
+
+// What the light of the elements depends on besides the links. By element or by sample.
+struct SurfaceState {
+  std::vector<vec3> albedo;  // by element: ρ, its mean
+  // By element and corner: irradiance of the lights without the sky [W/m²].
+  std::vector<vec3> direct;
+  std::vector<vec3> sky;         // by sample: irradiance of the sky [W/m²]
+  std::vector<uint8_t> isMixed;  // by element: whether a part of it is buried or behind a wall
+  LightSmoothing smoothing;
+};
+
+// Irradiance [W/m²] by bounced light: what other surfaces reflect after 1 to `bounces` bounces.
+// Buried samples have the mean of their neighbours. `out`: by value (SurfaceMesh::values()).
+void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
+                 int bounces, std::vector<vec3>& out);
+
+}  // namespace lamplighter

@@ -1,0 +1,83 @@
+#include "renderer/surface_light/cut_leaves.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include <tbb/parallel_for.h>
+
+namespace lamplighter {
+namespace {
+
+// Height of the rays above the surface [edges of elements]: thresholds and rugs do not cut.
+constexpr float kHeight = 0.04f;
+
+struct Corners {
+  std::array<vec3, 3> positions;
+  vec3 lift{0.0f};
+  Bounds bounds;
+};
+
+// Where the corners of an element are, lifted from the surface.
+Corners cornersOf(const RenderScene& scene, const SurfaceMesh& mesh, uint32_t leaf) {
+  Corners out;
+  const uint32_t object = mesh.objectOfLeaf(leaf);
+  const SurfaceSpot spot = spotAt(scene, object, mesh.placesOfLeaf(leaf)[0]);
+  out.lift = kHeight * mesh.edge() * spot.geometricNormal;
+  const auto samples = mesh.samplesOfLeaf(leaf);
+  for (size_t c = 0; c < 3; ++c) {
+    out.positions[c] =
+        spotAt(scene, object, mesh.placesOfSample(samples[c])[0]).position + out.lift;
+    out.bounds.add(out.positions[c]);
+  }
+  return out;
+}
+
+bool touches(const Bounds& a, const Bounds& b) {
+  return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
+
+}  // namespace
+
+uint64_t CutLeaves::update(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
+                           bool isNewMesh, std::span<const uint32_t> movedObjects,
+                           std::span<const Bounds> boxes) {
+  if (isNewMesh) isCut_.assign(mesh.leaves(), 0);
+  mayDiffer_.assign(mesh.leaves(), isNewMesh ? 1 : 0);
+  if (!isNewMesh && boxes.empty()) return 0;
+  std::vector<bool> isMoved(mesh.objects(), false);
+  for (const uint32_t o : movedObjects) isMoved[o] = true;
+  std::atomic<uint64_t> traced = 0;
+  tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
+    const auto leaf = static_cast<uint32_t>(k);
+    if (mesh.isCluster(leaf)) return;
+    const Corners corners = cornersOf(scene, mesh, leaf);
+    const auto isNear = [&](const Bounds& b) { return touches(corners.bounds, b); };
+    if (!isNewMesh && !isMoved[mesh.objectOfLeaf(leaf)] && std::ranges::none_of(boxes, isNear))
+      return;
+    mayDiffer_[k] = 1;
+    isCut_[k] = 0;
+    for (size_t c = 0; c < 3 && !isCut_[k]; ++c) {
+      const vec3& a = corners.positions[c];
+      isCut_[k] = rays.occluded({a, 0.0f, corners.positions[(c + 1) % 3] - a, 1.0f}) ? 1 : 0;
+      ++traced;
+    }
+  });
+  return traced;
+}
+
+void CutLeaves::keepVisible(const RenderScene& scene, const RayCaster& rays,
+                            const SurfaceMesh& mesh, const vec3& place, uint32_t leaf,
+                            vec3& weights) const {
+  if (!isCut(leaf)) return;
+  const Corners corners = cornersOf(scene, mesh, leaf);
+  vec3 kept = weights;
+  for (int c = 0; c < 3; ++c) {
+    const vec3 from = place + corners.lift;
+    if (rays.occluded({from, 0.0f, corners.positions[static_cast<size_t>(c)] - from, 1.0f}))
+      kept[c] = 0.0f;
+  }
+  const float sum = kept.x + kept.y + kept.z;
+  if (sum > 0.0f) weights = kept / sum;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,34 @@
+#include "renderer/surface_light/form_factor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lamplighter {
+
+float polygonFactor(const vec3& x, const vec3& n, std::span<const vec3> polygon) {
+  // Relative to x, clipped at the plane through x: a convex polygon gains at most one corner.
+  std::array<glm::dvec3, kMostCorners + 1> corners;
+  size_t count = 0;
+  const glm::dvec3 normal(n);
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = glm::dvec3(polygon[i]) - glm::dvec3(x);
+    const glm::dvec3 b = glm::dvec3(polygon[(i + 1) % polygon.size()]) - glm::dvec3(x);
+    const double ha = glm::dot(a, normal), hb = glm::dot(b, normal);
+    if (ha >= 0.0) corners[count++] = a;
+    if ((ha > 0.0 && hb < 0.0) || (ha < 0.0 && hb > 0.0))
+      corners[count++] = a + (b - a) * (ha / (ha - hb));
+  }
+  if (count < 3) return 0.0f;
+  double sum = 0.0;
+  for (size_t i = 0; i < count; ++i) {
+    const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % count];
+    const glm::dvec3 cross = glm::cross(a, b);
+    const double sine = glm::length(cross);
+    if (!(sine > 0.0)) continue;
+    sum += std::atan2(sine, glm::dot(a, b)) / sine * glm::dot(cross, normal);
+  }
+  return static_cast<float>(0.5 * std::abs(sum));
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,48 @@
+// The pixels of a picture as points of the surface mesh: found once for a view, so that other light
+// on the mesh is shown by a few look-ups a pixel.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/backends/gbuffer_view.h"
+#include "renderer/image/image.h"
+#include "renderer/surface_light/cut_leaves.h"
+
+namespace lamplighter {
+
+struct SurfacePictureOptions {
+  bool white = false;     // with ρ = 1: shows only the light
+  bool speculars = true;  // metallic-roughness BRDF
+  float leastRoughness = 0.1f;
+  bool operator==(const SurfacePictureOptions&) const = default;
+};
+
+class SurfacePicture {
+ public:
+  // Forgets all pixels. `samples`: how many G-buffers of this size follow.
+  void restart(int width, int height, int samples);
+  // One of them.
+  void add(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
+           const CutLeaves& cuts, const GBufferView& gbuffer, const vec3& eye,
+           const SurfacePictureOptions& options);
+
+  int samples() const { return added_; }
+  // Adds the radiance that reflects the irradiance on the mesh, the mean of the samples.
+  // `irradiance`: by value [W/m²].
+  void addTo(std::span<const vec3> irradiance, Image& picture) const;
+  size_t bytes() const { return points_.size() * sizeof(Point); }
+
+ private:
+  struct Point {
+    std::array<uint32_t, 3> values{};
+    // Weights of the second and third value; the share of irradiance that is reflected, times π.
+    // [1/65535]
+    std::array<uint16_t, 2> weights{};
+    std::array<uint16_t, 3> reflectance{};
+  };
+  int width_ = 0, height_ = 0, samples_ = 0, added_ = 0;
+  std::vector<Point> points_;  // by sample, then by pixel
+};
+
+}  // namespace lamplighter
