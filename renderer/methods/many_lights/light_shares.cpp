@@ -9,7 +9,7 @@
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/many_lights/add_scaled.h"
 #include "renderer/methods/many_lights/bias_compensation_filter.h"
-#include "renderer/methods/many_lights/pixel_jitter.h"
+#include "renderer/methods/pixel_jitter.h"
 
 namespace lamplighter {
 namespace {

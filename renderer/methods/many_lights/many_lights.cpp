@@ -50,12 +50,21 @@ constexpr int kHardMapsAFrame = 2;
 }  // namespace
 
 GiOutput ManyLights::render(const FrameInputs& in) {
-  GiOutput out;
   ManyLightsStats stats;
   waitsBefore_ = in.backend.counts().waits;
   uploadsBefore_ = kernels_->lightCounts().bytesUploaded;
   StageTimer stages(in, kManyLightsStages, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0);
+  GiOutput out = renderSamples(in, options, stages, stats);
+  addMeshes(in, options, stages, out, stats);
+  out.stats = published(stats, manyLightsStatistics());
+  return out;
+}
+
+// Everything but the light on surfaces.
+GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, StageTimer& stages,
+                                   ManyLightsStats& stats) {
+  GiOutput out;
   const bool wantsVisibility = options.useVisibility();
   if (in.changes.rebuilt || in.changes.objects || lights_.slots() != neededFor_)
     visibilityNeeds_ = 0;
@@ -72,7 +81,6 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     options_ = options;
     refineSettled(in, options, false, stages, out, stats);
     count(in, options, out, stats);
-    out.stats = published(stats, manyLightsStatistics());
     return out;
   }
 
@@ -157,7 +165,6 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   refineSettled(in, options, shadedNow, stages, out, stats);
   count(in, options, out, stats);
   if (wantsVisibility && !visibility_) stats.visibilityBytesNeeded = visibilityNeeds_;
-  out.stats = published(stats, manyLightsStatistics());
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "renderer/backends/many_lights_kernels.h"
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
+#include "renderer/methods/bounced_picture.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/light_shares.h"
 #include "renderer/methods/many_lights/live_bias_compensation.h"
@@ -36,6 +37,10 @@ class ManyLights final : public GiMethod {
  private:
   using Options = ManyLightsOptions;
 
+  GiOutput renderSamples(const FrameInputs& in, Options& options, StageTimer& stages,
+                         ManyLightsStats& stats);
+  void addMeshes(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
+                 ManyLightsStats& stats);
   void takeScene(const FrameInputs& in, const Options& options);
   void updateLights(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
@@ -114,6 +119,7 @@ class ManyLights final : public GiMethod {
   LiveBiasCompensation corners_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;
+  BouncedPicture meshes_;  // with indirect = meshes
 };
 
 MethodInfo manyLightsInfo();

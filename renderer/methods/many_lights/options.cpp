@@ -1,6 +1,7 @@
 #include "renderer/methods/many_lights/options.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lamplighter {
 namespace {
@@ -23,6 +24,10 @@ uint64_t limitOf(int parameter) {
 
 ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines)
     : ManyLightsParameters(manyLightsParameters().read(settings)) {
+  if (indirect == ManyLightsIndirect::meshes) {
+    meshBounces = std::exchange(bounces, 0);
+    directShare = 1.0f;
+  }
   if (!useVisibility()) forgoVisibility();
   if (clampDistance <= 0.0f) cornerLight = false;
   if (!refines) refine = 0;

@@ -15,6 +15,10 @@ struct ManyLightsOptions : ManyLightsParameters {
   ManyLightsOptions(const Settings& settings, bool refines);
   ManyLightsOptions() = default;
 
+  // Bounces of light that is kept on surfaces; 0: none is. `bounces` are those of light samples.
+  int meshBounces = 0;
+  bool useMeshes() const { return meshBounces > 0; }
+
   bool useVisibility() const { return technique != ManyLightsTechnique::naive; }
   bool useLightMaps() const { return technique == ManyLightsTechnique::lightMaps; }
   // Disables everything that needs the visibility database, as in naive.

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/surface_light_parameters.h"
 
 namespace lamplighter {
 
 // The acceleration techniques of the paper, each in addition to those before it.
 enum class ManyLightsTechnique { naive, visibility, lightMaps };
+
+// What carries bounced light: light samples, or light that is kept on surfaces.
+enum class ManyLightsIndirect { samples, meshes };
 
 // Those that change how the light of the same light samples is summed. Memory is in MiB.
 struct LightSumParameters : SurfaceParameters {
@@ -25,7 +29,11 @@ struct LightSumParameters : SurfaceParameters {
   bool operator==(const LightSumParameters&) const = default;
 };
 
-struct ManyLightsParameters : LightSumParameters, PathParameters, FrameBudgetParameters {
+struct ManyLightsParameters : LightSumParameters,
+                              PathParameters,
+                              FrameBudgetParameters,
+                              SurfaceLightParameters {
+  ManyLightsIndirect indirect = ManyLightsIndirect::samples;
   int vpls = 300;  // direct and indirect ones
   float directShare = 0.5f;
   int importance = 8;  // candidates per indirect VPL; 1: all are used

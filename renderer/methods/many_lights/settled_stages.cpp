@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "renderer/methods/many_lights/many_lights.h"
-#include "renderer/methods/many_lights/pixel_jitter.h"
 #include "renderer/methods/many_lights/shading_options.h"
 #include "renderer/methods/many_lights/stages.h"
+#include "renderer/methods/pixel_jitter.h"
 
 namespace lamplighter {
 namespace {
@@ -153,6 +153,20 @@ void ManyLights::addSample(const FrameInputs& in, const Options& options, StageT
     mean_ = std::make_shared<HostImage>(std::move(sum_));
   }
   stages.end(kAntialiasingStage);
+}
+
+// Adds bounced light that is kept on surfaces. It is current in each frame.
+void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageTimer& stages,
+                           GiOutput& out, ManyLightsStats& stats) {
+  if (!options.useMeshes()) return meshes_.forget();
+  meshes_.outdate(in.changes);
+  if (in.part == LightPart::direct) return;
+  meshes_.update(in, options.surfaceLight(options.meshBounces, options.seed),
+                 {in.lightOnly, options.speculars, options.leastRoughness});
+  const int samples = out.settled && options.antialias > 1 ? options.antialias : 1;
+  out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
+  stats.take(meshes_.counts());
+  stages.end(kMeshesStage);
 }
 
 }  // namespace lamplighter

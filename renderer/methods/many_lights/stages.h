@@ -33,6 +33,8 @@ inline constexpr StageSpec kSharesStage{
     "Finding what each light adds to a settled picture, antialiased, and adding it up."};
 inline constexpr StageSpec kCornersStage{"corners", "Corners",
                                          "Tracing the light that the clamp removes near surfaces."};
+inline constexpr StageSpec kMeshesStage{"meshes", "Light on surfaces",
+                                        "Finding bounced light on the surfaces, and showing it."};
 inline constexpr StageSpec kRefinementStage{
     "refinement", "Refinement", "Adding batches of light samples to a settled picture."};
 
@@ -40,6 +42,6 @@ inline constexpr StageSpec kRefinementStage{
 inline constexpr StageSpec kManyLightsStages[] = {
     kLightSamplesStage, kVisibilityStage, kShadowMapsStage, kFinerMapsStage,   kLightMapsStage,
     kTransferStage,     kGBufferStage,    kLightSumsStage,  kCompositionStage, kAntialiasingStage,
-    kSharesStage,       kCornersStage,    kRefinementStage};
+    kSharesStage,       kCornersStage,    kMeshesStage,     kRefinementStage};
 
 }  // namespace lamplighter

@@ -297,6 +297,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .unit = "paths",
         .meaning = "Paths that wait to be traced again.",
         .kind = pending}},
+      surfaceLightStatistics(),
       commonStatistics()};
   return table;
 }

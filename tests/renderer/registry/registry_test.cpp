@@ -69,11 +69,13 @@ TEST(Registry, MethodsMeasureTheStagesThatTheyDeclare) {
     FrameRenderer renderer(makeCpuBackend(), [t = 0.0]() mutable { return t += 0.001; });
     if (!problemOf(method, renderer.backend()).empty()) continue;
     settings.reset("share_memory");
+    settings.reset("indirect");
     std::vector<StageTime> measured;
     SceneChanges changes = SceneChanges::all();
     for (int i = 0; i < 80; ++i) {
       // Without light shares a picture is antialiased as a whole.
       if (i == 40) settings.set("share_memory", 0);
+      if (i == 70) settings.set("indirect", std::string("meshes"));
       const GiStats stats =
           renderer.render({scene, changes, view, method.name, settings, false, false, 8}).stats;
       ASSERT_TRUE(std::ranges::equal(stats.stageSeconds, method.stages, {}, &StageTime::stage));

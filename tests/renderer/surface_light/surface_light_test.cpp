@@ -8,6 +8,7 @@
 
 #include "renderer/base/threads.h"
 #include "renderer/surface_light/form_factor.h"
+#include "tests/support/edit_sequence.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 
@@ -178,6 +179,21 @@ TEST(SurfaceLight, MovedLightsLeaveTheBitsOfAFreshStart) {
   room.scene.find(room.area)->local.translation += vec3(-0.4f, 0.0f, 0.2f);
   lit.edit(room.scene);
   expectSameBits(lit, Lit(room.scene));
+}
+
+TEST(SurfaceLight, AnyEditsLeaveTheBitsOfAFreshStart) {
+  for (const uint32_t seed : {1u, 2u, 3u}) {
+    const auto isSame = [](const test::EditSequence& edits) {
+      Room room;
+      Lit lit(room.scene, 2);
+      for (const test::Edit& edit : edits) {
+        test::apply(room.scene, edit);
+        lit.edit(room.scene);
+      }
+      return lit.light.values() == Lit(room.scene, 2).light.values();
+    };
+    EXPECT_EQ(test::shortestFailing(test::randomEdits(12, seed), isSame), test::EditSequence());
+  }
 }
 
 TEST(SurfaceLight, DoesNotDependOnThreads) {

@@ -1,0 +1,41 @@
+// The bounced light of a picture, from light on surfaces: current in every frame.
+#pragma once
+
+#include <memory>
+
+#include "renderer/methods/gi_method.h"
+#include "renderer/surface_light/surface_light.h"
+#include "renderer/surface_light/surface_picture.h"
+
+namespace lamplighter {
+
+class BouncedPicture {
+ public:
+  // To be called with the changes of each frame, also of those that do not show the light.
+  void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
+  // Brings the light up to date.
+  void update(const FrameInputs& in, const SurfaceLightOptions& light,
+              const SurfacePictureOptions& picture);
+
+  // `picture` plus bounced light, the mean of `antialias` shifted pictures (1: without a shift).
+  // `gbufferIsCurrent`: whether the backend has the G-buffer of the view without a shift; set to
+  // what it has afterwards.
+  std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
+                                       const std::shared_ptr<RadianceImage>& picture, int antialias,
+                                       bool& gbufferIsCurrent);
+  const SurfaceLight::Counts& counts() const { return light_.counts(); }
+  size_t pictureBytes() const { return plain_.bytes() + smooth_.bytes(); }
+  void forget() { *this = BouncedPicture(); }
+
+ private:
+  SurfaceLight light_;
+  RenderSceneChanges unseen_;  // since the last update
+  SurfacePictureOptions options_;
+  View view_;
+  SurfacePicture plain_, smooth_;  // without a shift; antialiased
+  // What was shown last.
+  std::shared_ptr<RadianceImage> under_, shown_;
+  int antialias_ = 0;
+};
+
+}  // namespace lamplighter

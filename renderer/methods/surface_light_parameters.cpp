@@ -1,0 +1,87 @@
+#include "renderer/methods/surface_light_parameters.h"
+
+namespace lamplighter {
+
+const ParameterTable<SurfaceLightParameters>& surfaceLightParameters() {
+  using P = SurfaceLightParameters;
+  static const ParameterTable<P> table{
+      {&P::coarseEdge,
+       "coarse_edge",
+       "Coarse edge",
+       "m",
+       "Longest edge of the elements of surface that exchange bounced light. Smaller: finer "
+       "bounced "
+       "shadows, more rays after an edit. Elements are larger where link_memory is short.",
+       {0.02, 10.0, kLogarithmic},
+       ParameterGroup::quality},
+      {&P::gatherRays,
+       "gather_rays",
+       "Gather rays",
+       "",
+       "Rays from each corner of an element that find the bounced light that arrives there.",
+       {16, 4096, kLogarithmic},
+       ParameterGroup::quality},
+      {&P::linkMemory,
+       "link_memory",
+       "Link memory",
+       "MiB",
+       "Memory limit for what gather rays see: 8 bytes each. If it is short, elements are larger.",
+       {1, 65536, kLogarithmic},
+       ParameterGroup::budgets,
+       "More: smaller elements on large levels, down to coarse_edge."}};
+  return table;
+}
+
+void SurfaceLightStats::take(const SurfaceLight::Counts& counts) {
+  elements = static_cast<int>(counts.leaves);
+  elementCorners = static_cast<int>(counts.samples);
+  elementEdge = counts.edge;
+  cornersTraced = static_cast<int>(counts.samplesTraced);
+  directFactors = counts.factorsFound;
+  surfaceBytes = counts.bytes;
+  raysTraced += counts.rays;
+}
+
+const StatisticTable<SurfaceLightStats>& surfaceLightStatistics() {
+  using S = SurfaceLightStats;
+  static const StatisticTable<S> table{
+      {&S::elements,
+       {.name = "elements",
+        .label = "Elements",
+        .unit = "elements",
+        .meaning = "Elements of surface that exchange bounced light."}},
+      {&S::elementCorners,
+       {.name = "element_corners",
+        .label = "Corners of elements",
+        .unit = "corners",
+        .meaning = "Points at which bounced light is found by gather rays."}},
+      {&S::elementEdge,
+       {.name = "element_edge",
+        .label = "Edge of elements",
+        .unit = "m",
+        .meaning = "Longest edge of elements that memory allows.",
+        .budget = "link_memory",
+        .cost = "edges of {}"}},
+      {&S::cornersTraced,
+       {.name = "corners_traced",
+        .label = "Corners traced",
+        .unit = "corners",
+        .meaning = "Corners of elements with gather rays that were traced in this frame.",
+        .kind = StatisticKind::work}},
+      {&S::directFactors,
+       {.name = "direct_factors",
+        .label = "Direct factors",
+        .unit = "factors",
+        .meaning = "Elements times lights whose direct light was found in this frame.",
+        .kind = StatisticKind::work}},
+      {&S::surfaceBytes,
+       {.name = "surface_bytes",
+        .label = "Memory of light on surfaces",
+        .unit = "bytes",
+        .meaning = "Memory of elements, of what their rays see, and of their direct light.",
+        .budget = "link_memory",
+        .cost = "{}"}}};
+  return table;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,35 @@
+// Parameters of methods whose bounced light is kept on the surfaces (renderer/surface_light).
+#pragma once
+
+#include "renderer/base/parameter_table.h"
+#include "renderer/methods/gi_method.h"
+#include "renderer/surface_light/surface_light.h"
+
+namespace lamplighter {
+
+struct SurfaceLightParameters {
+  float coarseEdge = 0.25f;  // [m]
+  int gatherRays = 256;
+  int linkMemory = 256;  // MiB
+  bool operator==(const SurfaceLightParameters&) const = default;
+
+  SurfaceLightOptions surfaceLight(int bounces, int seed) const {
+    return {bounces, coarseEdge, gatherRays, static_cast<size_t>(linkMemory) << 20,
+            static_cast<uint32_t>(seed)};
+  }
+};
+const ParameterTable<SurfaceLightParameters>& surfaceLightParameters();
+
+// Statistics of such methods.
+struct SurfaceLightStats : GiStats {
+  int elements = 0, elementCorners = 0;  // on the surfaces
+  float elementEdge = 0.0f;              // longest edge that memory allows [m]
+  int cornersTraced = 0;                 // in this frame, at least one ray
+  uint64_t directFactors = 0;            // in this frame: emitters × elements
+  uint64_t surfaceBytes = 0;             // memory
+
+  void take(const SurfaceLight::Counts& counts);
+};
+const StatisticTable<SurfaceLightStats>& surfaceLightStatistics();
+
+}  // namespace lamplighter

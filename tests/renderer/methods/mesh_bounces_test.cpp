@@ -1,0 +1,135 @@
+// many_lights with bounced light on surfaces.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "renderer/image/image_io.h"
+#include "renderer/image/metrics.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+const std::string kMethod = "many_lights";
+
+Settings meshSettings(int bounces) {
+  Settings settings;
+  settings.set("indirect", std::string("meshes"));
+  settings.set("bounces", bounces);
+  settings.set("vpls", 60);
+  settings.set("updates", 60);
+  settings.set("share_memory", 0);
+  settings.set("antialias", 2);
+  return settings;
+}
+
+struct Room {
+  Scene scene;
+  NodeId box = kNoNode, light = kNoNode;
+  View view = test::lookAt(vec3(1.5f, 0.8f, 1.9f), vec3(0.0f, -0.4f, 0.0f), 64, 48);
+
+  Room() {
+    const int white = test::addMaterial(scene, vec3(0.8f));
+    const int red = test::addMaterial(scene, vec3(0.8f, 0.2f, 0.1f), 0.0f, 0.4f);
+    test::addMesh(scene, test::roomMesh(vec3(4.0f, 3.0f, 4.0f), white));
+    box = test::addMesh(scene, test::boxMesh(vec3(0.8f), red), vec3(0.0f, -1.1f, 0.0f));
+    light = test::addRectangleLight(scene, vec3(0.0f, 1.4f, 0.0f), vec2(1.0f), vec3(5.0f));
+  }
+};
+
+TEST(MeshBounces, CornellBoxIsWithinThreePercentOfAnIndependentRenderer) {
+  const auto references = test::sharedFolder() / "references";
+  if (!std::filesystem::exists(references)) GTEST_SKIP() << "no " << references;
+  for (const std::string name : {"cornell", "cornell_lightmoved"}) {
+    const Scene scene = loadGltf(references / "scenes" / (name + ".gltf")).scene;
+    Settings settings = meshSettings(5);
+    settings.set("vpls", 300);
+    settings.set("updates", 300);
+    settings.set("antialias", 4);
+    FrameRenderer renderer(makeCpuBackend());
+    const GiOutput out = test::renderSettled(renderer, scene, SceneChanges::all(),
+                                             test::viewOf(scene, 512, 384), settings);
+    const Image reference = readImage(references / "refs" / (name + "_b5.exr"));
+    const Image mask = readImage(references / "refs" / (name + "_mask.exr"));
+    const Metrics m = compareImages(out.radiance->pixels(), reference, &mask);
+    RecordProperty(name, std::to_string(m.relRmse));
+    EXPECT_LT(m.relRmse, 0.03) << name;
+    EXPECT_LT(std::abs(m.bias - 1.0), 0.01) << name;
+  }
+}
+
+TEST(MeshBounces, DirectAndIndirectLightAddUpToTheWhole) {
+  const Room room;
+  const Settings settings = meshSettings(3);
+  const auto picture = [&](LightPart part) {
+    FrameRenderer renderer(makeCpuBackend());
+    SceneChanges changes = SceneChanges::all();
+    GiOutput out;
+    for (int frame = 0; frame < 200 && !out.settled; ++frame) {
+      FrameRenderer::Request request{room.scene, changes, room.view, kMethod, settings};
+      request.part = part;
+      out = renderer.render(request);
+      changes = {};
+    }
+    EXPECT_TRUE(out.settled);
+    return out.radiance->pixels();
+  };
+  const Image whole = picture(LightPart::all), direct = picture(LightPart::direct),
+              indirect = picture(LightPart::indirect);
+  EXPECT_GT(test::meanOf(indirect).g, 0.05f * test::meanOf(whole).g);
+  Image sum = direct;
+  for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += indirect.pixels[i];
+  // The whole picture has the light of corners and low-resolution blocks of its own.
+  EXPECT_LT(compareImages(sum, whole).relRmse, 0.01);
+}
+
+TEST(MeshBounces, EditsLeaveTheBitsOfAFreshStart) {
+  Room room;
+  const Settings settings = meshSettings(3);
+  FrameRenderer renderer(makeCpuBackend());
+  const Image before =
+      test::settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  const auto edited = [&](const auto& edit) {
+    const Scene old = room.scene;
+    edit(room.scene);
+    return test::settledPicture(renderer, room.scene, compare(old, room.scene), room.view,
+                                settings);
+  };
+  const Image moved = edited([&](Scene& s) { s.find(room.box)->local.translation.x += 0.4f; });
+  EXPECT_FALSE(test::sameBits(moved, before));
+  EXPECT_TRUE(
+      test::sameBits(moved, test::freshPicture(makeCpuBackend(), room.scene, room.view, settings)));
+  const Image dimmed = edited([&](Scene& s) { s.find(room.light)->area->radiance *= 0.7f; });
+  EXPECT_TRUE(test::sameBits(
+      dimmed, test::freshPicture(makeCpuBackend(), room.scene, room.view, settings)));
+  const Image back = edited([&](Scene& s) {
+    s.find(room.box)->local.translation.x -= 0.4f;
+    s.find(room.light)->area->radiance = vec3(5.0f);
+  });
+  EXPECT_TRUE(test::sameBits(back, before));
+}
+
+TEST(MeshBounces, BouncedLightIsCurrentInTheFrameOfAnEdit) {
+  Room room;
+  Settings settings = meshSettings(3);
+  FrameRenderer renderer(makeCpuBackend());
+  test::settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  const Scene old = room.scene;
+  room.scene.find(room.light)->local.translation += vec3(1.2f, 0.0f, 0.6f);
+  const auto shown = [&](FrameRenderer& by, const SceneChanges& changes) {
+    FrameRenderer::Request request{room.scene, changes, room.view, kMethod, settings};
+    request.part = LightPart::indirect;
+    return by.render(request).radiance->pixels();
+  };
+  const Image now = shown(renderer, compare(old, room.scene));
+  FrameRenderer other(makeCpuBackend());
+  EXPECT_TRUE(test::sameBits(now, shown(other, SceneChanges::all())));
+}
+
+}  // namespace
+}  // namespace lamplighter
