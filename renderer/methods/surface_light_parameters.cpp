@@ -39,7 +39,6 @@ void SurfaceLightStats::take(const SurfaceLight::Counts& counts) {
   cornersTraced = static_cast<int>(counts.samplesTraced);
   directFactors = counts.factorsFound;
   surfaceBytes = counts.bytes;
-  raysTraced += counts.rays;
 }
 
 const StatisticTable<SurfaceLightStats>& surfaceLightStatistics() {

@@ -28,6 +28,7 @@ struct SurfaceLightStats : GiStats {
   uint64_t directFactors = 0;            // in this frame: emitters × elements
   uint64_t surfaceBytes = 0;             // memory
 
+  // All but the rays.
   void take(const SurfaceLight::Counts& counts);
 };
 const StatisticTable<SurfaceLightStats>& surfaceLightStatistics();

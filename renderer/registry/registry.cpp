@@ -6,13 +6,15 @@
 #include "renderer/base/error.h"
 #include "renderer/methods/ambient_occlusion/ambient_occlusion.h"
 #include "renderer/methods/many_lights/many_lights.h"
+#include "renderer/methods/multi_mesh/multi_mesh.h"
 #include "renderer/methods/path_tracer/reference_method.h"
 
 namespace lamplighter {
 namespace {
 
 std::deque<MethodInfo>& list() {
-  static std::deque<MethodInfo> all{manyLightsInfo(), ambientOcclusionInfo(), referenceInfo()};
+  static std::deque<MethodInfo> all{manyLightsInfo(), multiMeshInfo(), ambientOcclusionInfo(),
+                                    referenceInfo()};
   return all;
 }
 

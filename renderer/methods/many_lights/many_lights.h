@@ -33,6 +33,8 @@ class ManyLights final : public GiMethod {
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(*kernels_); }
   Inspection inspect() const override;
+  // Of light on surfaces, in the last frame.
+  const SurfaceLight::Counts& surfaceCounts() const { return meshes_.counts(); }
 
  private:
   using Options = ManyLightsOptions;

@@ -166,6 +166,7 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
   const int samples = out.settled && options.antialias > 1 ? options.antialias : 1;
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
   stats.take(meshes_.counts());
+  stats.raysTraced += meshes_.counts().rays;
   stages.end(kMeshesStage);
 }
 
