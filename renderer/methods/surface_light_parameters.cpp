@@ -21,6 +21,15 @@ const ParameterTable<SurfaceLightParameters>& surfaceLightParameters() {
        "Rays from each corner of an element that find the bounced light that arrives there.",
        {16, 4096, kLogarithmic},
        ParameterGroup::quality},
+      {&P::mask,
+       "mask",
+       "Mask",
+       "places",
+       "Side of the mask by which the visible part of a flat light is found for direct light that "
+       "bounces: exact soft shadows instead of one ray for each corner of an element, with more "
+       "work. 0: rays.",
+       {{"0", 0}, {"16", 16}, {"32", 32}, {"64", 64}},
+       ParameterGroup::quality},
       {&P::linkMemory,
        "link_memory",
        "Link memory",
@@ -37,6 +46,7 @@ void SurfaceLightStats::take(const SurfaceLight::Counts& counts) {
   elementCorners = static_cast<int>(counts.samples);
   elementEdge = counts.edge;
   cornersTraced = static_cast<int>(counts.samplesTraced);
+  masks = static_cast<int>(counts.masks);
   directFactors = counts.factorsFound;
   surfaceBytes = counts.bytes;
 }
@@ -72,6 +82,12 @@ const StatisticTable<SurfaceLightStats>& surfaceLightStatistics() {
         .label = "Direct factors",
         .unit = "factors",
         .meaning = "Elements times lights whose direct light was found in this frame.",
+        .kind = StatisticKind::work}},
+      {&S::masks,
+       {.name = "masks",
+        .label = "Masks",
+        .unit = "masks",
+        .meaning = "Masks on lights that were drawn in this frame, for direct light that bounces.",
         .kind = StatisticKind::work}},
       {&S::surfaceBytes,
        {.name = "surface_bytes",

@@ -11,11 +11,13 @@ struct SurfaceLightParameters {
   float coarseEdge = 0.25f;  // [m]
   int gatherRays = 256;
   int linkMemory = 256;  // MiB
+  int mask = 0;          // places along a side of a light
   bool operator==(const SurfaceLightParameters&) const = default;
 
   SurfaceLightOptions surfaceLight(int bounces, int seed) const {
-    return {bounces, coarseEdge, gatherRays, static_cast<size_t>(linkMemory) << 20,
-            static_cast<uint32_t>(seed)};
+    return {bounces,    coarseEdge,
+            gatherRays, static_cast<size_t>(linkMemory) << 20,
+            mask,       static_cast<uint32_t>(seed)};
   }
 };
 const ParameterTable<SurfaceLightParameters>& surfaceLightParameters();
@@ -26,6 +28,7 @@ struct SurfaceLightStats : GiStats {
   float elementEdge = 0.0f;              // longest edge that memory allows [m]
   int cornersTraced = 0;                 // in this frame, at least one ray
   uint64_t directFactors = 0;            // in this frame: emitters × elements
+  int masks = 0;                         // in this frame
   uint64_t surfaceBytes = 0;             // memory
 
   // All but the rays.

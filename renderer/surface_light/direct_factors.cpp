@@ -56,7 +56,10 @@ uint64_t DirectFactors::update(const Scene& now, bool isNewMesh,
     }
   }
   uint64_t rays = 0;
-  computed_ = 0;
+  computed_ = masked_ = open_ = 0;
+  if (now.mask != 0) blockers_.update(now.scene, isNewMesh || mask_ == 0, movedObjects);
+  if (now.mask != mask_) std::ranges::fill(isStale, uint8_t{1});
+  mask_ = now.mask;
   const bool isOtherwiseMixed =
       wasMixed_.size() != now.isMixed.size() || !std::ranges::equal(wasMixed_, now.isMixed);
   if (!boxes.empty() || isOtherwiseMixed || std::ranges::count(isStale, 1) > 0)
@@ -69,9 +72,12 @@ void DirectFactors::find(const Scene& now, const std::vector<uint8_t>& isStale,
                          const std::vector<bool>& isMoved, std::span<const Bounds> boxes,
                          uint64_t& rays) {
   std::vector<EmitterFactor> emitters;
-  for (size_t e = 0; e < columns_.size(); ++e)
+  std::vector<std::optional<FlatLight>> flat;
+  for (size_t e = 0; e < columns_.size(); ++e) {
     emitters.emplace_back(now.scene, now.lights, e, now.seed);
-  std::atomic<uint64_t> traced = 0, computed = 0;
+    flat.push_back(emitters.back().flat(now.mask));
+  }
+  std::atomic<uint64_t> traced = 0, computed = 0, masked = 0, open = 0;
   tbb::parallel_for(size_t{0}, now.mesh.leaves(), [&](size_t k) {
     const auto leaf = static_cast<uint32_t>(k);
     const uint32_t object = now.mesh.objectOfLeaf(leaf);
@@ -104,17 +110,26 @@ void DirectFactors::find(const Scene& now, const std::vector<uint8_t>& isStale,
       const auto touches = [&](const LightRay& l) {
         return std::ranges::any_of(boxes, [&](const Bounds& b) { return mayTouch(l.ray, b); });
       };
-      if (!isNew && std::ranges::none_of(lights, touches)) continue;
+      // A mask shows the whole light, not only where the rays go.
+      if (!isNew && !flat[e] && std::ranges::none_of(lights, touches)) continue;
       std::array<vec3, 3> corners{};
       for (const LightRay& l : lights) {
-        if (now.rays.occluded(l.ray)) continue;
+        float share = 0.0f;
+        const auto byMask = flat[e] ? maskedShare(now.scene, blockers_, *flat[e], spots[l.spot])
+                                    : std::optional<MaskedShare>();
+        if (byMask) {
+          share = byMask->share;
+          ++(byMask->isOpen ? open : masked);
+        } else {
+          share = now.rays.occluded(l.ray) ? 0.0f : 1.0f;
+          ++traced;
+        }
         if (!isCluster)
-          corners[l.spot] = l.irradiance;
+          corners[l.spot] = share * l.irradiance;
         else
-          corners[0] += l.irradiance / static_cast<float>(spots.size());
+          corners[0] += share * l.irradiance / static_cast<float>(spots.size());
       }
       if (isCluster) corners[1] = corners[2] = corners[0];
-      traced += lights.size();
       ++computed;
       Column& column = columns_[e];
       const int channels = column.isColoured ? 3 : 1;
@@ -125,6 +140,8 @@ void DirectFactors::find(const Scene& now, const std::vector<uint8_t>& isStale,
   });
   rays += traced;
   computed_ = computed;
+  masked_ = masked;
+  open_ = open;
 }
 
 void DirectFactors::sum(const LightSet& lights, std::vector<vec3>& out) const {

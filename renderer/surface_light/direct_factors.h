@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/sampling/vpl_set.h"
+#include "renderer/surface_light/blockers.h"
 #include "renderer/surface_light/emitter_factor.h"
 
 namespace lamplighter {
@@ -21,6 +22,7 @@ class DirectFactors {
     // corners.
     std::span<const uint8_t> isMixed;
     uint32_t seed;
+    int mask;  // places along a side of a flat light whose visibility is found exactly; 0: by rays
   };
   // After changes of the scene. `isNewMesh`: the elements have other numbers. Only what may differ
   // is computed again. `boxes`: bounds of what moved, before and after. Returns the number of rays.
@@ -30,6 +32,9 @@ class DirectFactors {
   // each element [W/m²].
   void sum(const LightSet& lights, std::vector<vec3>& out) const;
 
+  // Of them, how many by masks and how many where nothing is between, without any ray.
+  size_t masked() const { return masked_; }
+  size_t open() const { return open_; }
   size_t factors() const { return computed_; }  // computed in the last update
   size_t bytes() const;
   void forget() { *this = DirectFactors(); }
@@ -49,7 +54,9 @@ class DirectFactors {
   std::vector<Column> columns_;  // by emitter
   std::vector<uint8_t> wasMixed_;
   Sky sky_;  // at its reference brightness
-  size_t computed_ = 0;
+  int mask_ = 0;
+  Blockers blockers_;  // if there are masks
+  size_t computed_ = 0, masked_ = 0, open_ = 0;
 };
 
 }  // namespace lamplighter

@@ -64,6 +64,21 @@ void EmitterFactor::raysTo(std::span<const SurfaceSpot> spots, uint32_t leftOutB
   }
 }
 
+float EmitterFactor::unshadowed(const SurfaceSpot& spot) const {
+  float factor = 0.0f;
+  for (size_t i = 0; i < corners_.size(); i += 3) {
+    const vec3 cross = glm::cross(corners_[i + 1] - corners_[i], corners_[i + 2] - corners_[i]);
+    if (!light_.bothSides && glm::dot(cross, spot.position - corners_[i]) <= 0.0f) continue;
+    factor += polygonFactor(spot.position, spot.normal, std::span(corners_).subspan(i, 3));
+  }
+  return factor;
+}
+
+std::optional<FlatLight> EmitterFactor::flat(int side) const {
+  if (side == 0 || corners_.empty()) return std::nullopt;
+  return flatLightOf(scene_, light_.object, side);
+}
+
 LightRay EmitterFactor::fromSurface(const SurfaceSpot& spot, const vec2& u) const {
   const EmitterPoint p = lights_.samplePoint(scene_, emitter_, u);
   const vec3 d = p.position - spot.position;
@@ -77,11 +92,7 @@ LightRay EmitterFactor::fromSurface(const SurfaceSpot& spot, const vec2& u) cons
     // The form factor of a disk, so that it stays finite near the light.
     if (here > 0.0f && there > 0.0f) factor = here * there * p.area / (d2 + p.area / kPi);
   } else {
-    for (size_t i = 0; i < corners_.size(); i += 3) {
-      const vec3 cross = glm::cross(corners_[i + 1] - corners_[i], corners_[i + 2] - corners_[i]);
-      if (!p.bothSides && glm::dot(cross, spot.position - corners_[i]) <= 0.0f) continue;
-      factor += polygonFactor(spot.position, spot.normal, std::span(corners_).subspan(i, 3));
-    }
+    factor = unshadowed(spot);
   }
   const vec3 from = spot.rayOrigin();
   const float side = glm::dot(p.normal, w) > 0.0f ? -1.0f : 1.0f;

@@ -7,6 +7,7 @@
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/surface_light/surface_mesh.h"
+#include "renderer/surface_light/visible_places.h"
 
 namespace lamplighter {
 
@@ -25,6 +26,10 @@ class EmitterFactor {
   bool isColoured() const;
   // False for the sky without its suns, whose light gather rays find.
   bool isSampled() const { return light_.kind != EmitterKind::sky || light_.skySun > 0; }
+  // Its places, if it is flat, has one colour and `side` is not 0 (visible_places.h).
+  std::optional<FlatLight> flat(int side) const;
+  // The light on a spot if nothing is between, of a light with a closed form; 0 below the surface.
+  float unshadowed(const SurfaceSpot& spot) const;
   // Where it is; empty: far away.
   const Bounds& bounds() const { return bounds_; }
   // One ray for each spot that it may light. `key`: identifies the element, so that neighbours use
@@ -43,7 +48,7 @@ class EmitterFactor {
   int emitter_;
   uint32_t seed_;
   Bounds bounds_;
-  std::vector<vec3> corners_;  // of the triangles of a simple surface, for its closed form
+  std::vector<vec3> corners_;  // of the triangles of a simple or flat surface, for its closed form
 };
 
 }  // namespace lamplighter

@@ -31,7 +31,7 @@ std::vector<Bounds> boxesOf(const RenderScene& scene, const RenderSceneChanges& 
 
 bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& changes,
                           const RayCaster& rays, const SurfaceLightOptions& options) {
-  counts_.rays = counts_.samplesTraced = counts_.factorsFound = 0;
+  counts_.rays = counts_.samplesTraced = counts_.factorsFound = counts_.masks = 0;
   const bool isFirst = links_.isEmpty();
   if (!isFirst && changes.none() && options == options_) return false;
   RenderSceneChanges all = changes;
@@ -65,9 +65,11 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
     state_.smoothing = LightSmoothing(scene, mesh_, links_);
     findMixed();
   }
-  counts_.rays += direct_.update({scene, rays, lights_, mesh_, state_.isMixed, options.seed}, isNew,
-                                 all.movedObjects, boxes);
+  counts_.rays +=
+      direct_.update({scene, rays, lights_, mesh_, state_.isMixed, options.seed, options.mask},
+                     isNew, all.movedObjects, boxes);
   counts_.factorsFound = direct_.factors();
+  counts_.masks = direct_.masked();
   state_.direct.resize(3 * mesh_.leaves());
   direct_.sum(lights_, state_.direct);
   state_.smoothing.fillCorners(mesh_, state_.direct);

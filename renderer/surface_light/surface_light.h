@@ -16,6 +16,7 @@ struct SurfaceLightOptions {
   float edge = 0.25f;  // longest edge of an element where memory allows it [m]
   int gatherRays = 256;
   size_t linkBytes = size_t{256} << 20;
+  int mask = 0;  // DirectFactors::Scene
   uint32_t seed = 1;
   bool operator==(const SurfaceLightOptions&) const = default;
 };
@@ -26,6 +27,7 @@ class SurfaceLight {
   struct Counts {
     uint64_t rays = 0;         // traced
     size_t samplesTraced = 0;  // of which at least one ray was traced
+    size_t masks = 0;          // of them, drawn
     size_t factorsFound = 0;   // direct light of an emitter on an element
     size_t samples = 0, leaves = 0, bytes = 0;
     float edge = 0.0f;  // longest edge [m]

@@ -39,8 +39,10 @@ struct Lit {
   SurfaceLight light;
   SurfaceLightOptions options;
 
-  explicit Lit(const Scene& s, int bounces = 3) : edited(s), scene(test::renderSceneOf(s)) {
+  explicit Lit(const Scene& s, int bounces = 3, int mask = 0)
+      : edited(s), scene(test::renderSceneOf(s)) {
     options = {bounces, 0.4f, 64};
+    options.mask = mask;
     rays = std::make_unique<RayCaster>(scene);
     light.update(scene, test::everythingRebuilt(), *rays, options);
   }
@@ -123,7 +125,7 @@ TEST(SurfaceLight, DirectLightOfAnOpenRectangleIsItsClosedForm) {
   mesh.update(render, test::everythingRebuilt(), {});
   const std::vector<uint8_t> isMixed(mesh.leaves(), 0);
   DirectFactors factors;
-  factors.update({render, rays, lights, mesh, isMixed, 1}, true, {}, {});
+  factors.update({render, rays, lights, mesh, isMixed, 1, 0}, true, {}, {});
   std::vector<vec3> direct(3 * mesh.leaves());
   factors.sum(lights, direct);
   const std::vector<vec3> corners{
@@ -179,6 +181,33 @@ TEST(SurfaceLight, MovedLightsLeaveTheBitsOfAFreshStart) {
   room.scene.find(room.area)->local.translation += vec3(-0.4f, 0.0f, 0.2f);
   lit.edit(room.scene);
   expectSameBits(lit, Lit(room.scene));
+}
+
+TEST(SurfaceLight, OpenLightsNeedNoRaysWithMasks) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(3.0f));
+  test::addRectangleLight(scene, vec3(0.2f, 1.0f, 0.1f), vec2(0.8f, 0.5f), vec3(4.0f));
+  const RenderScene render = test::renderSceneOf(scene);
+  const RayCaster rays(render);
+  const LightSet lights(render);
+  SurfaceMesh mesh;
+  mesh.update(render, test::everythingRebuilt(), {});
+  const std::vector<uint8_t> isMixed(mesh.leaves(), 0);
+  DirectFactors factors;
+  EXPECT_EQ(factors.update({render, rays, lights, mesh, isMixed, 1, 64}, true, {}, {}), 0u);
+  EXPECT_EQ(factors.masked(), 0u);
+  EXPECT_GT(factors.open(), mesh.leaves());
+}
+
+TEST(SurfaceLight, EditsWithMasksLeaveTheBitsOfAFreshStart) {
+  Room room;
+  Lit lit(room.scene, 2, 64);
+  EXPECT_GT(lit.light.counts().masks, 100u);
+  for (const NodeId id : {room.box, room.area, room.box}) {
+    room.scene.find(id)->local.translation += vec3(0.2f, 0.05f, -0.3f);
+    lit.edit(room.scene);
+    expectSameBits(lit, Lit(room.scene, 2, 64));
+  }
 }
 
 TEST(SurfaceLight, AnyEditsLeaveTheBitsOfAFreshStart) {
