@@ -20,7 +20,7 @@ class Blockers {
   // The triangles that may hide places of the light from x, above the plane of its unit normal n.
   // Conservative: `none` means that nothing is between. Surfaces with alpha masks, and more than
   // kMost triangles, are too many.
-  static constexpr size_t kMost = 64;
+  static constexpr size_t kMost = 16;
   Found find(const RenderScene& scene, const FlatLight& light, const vec3& x, const vec3& n,
              std::vector<std::array<vec3, 3>>& out) const;
 

@@ -4,29 +4,48 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/simd.h"
+
 namespace lamplighter {
+namespace {
+
+// The sum of the light at the ends of links.
+vec3 gathered(std::span<const GatherLink> links, const std::vector<float>& reflected) {
+  const hn::FixedTag<float, 4> tag;
+  auto sum = hn::Zero(tag);
+  for (const GatherLink& link : links) {
+    if (!link.isLeaf()) continue;
+    const float* corners = &reflected[12 * size_t{link.leaf}];
+    const vec3 w = link.weights();
+    sum = hn::MulAdd(hn::Set(tag, w.x), hn::LoadU(tag, corners), sum);
+    sum = hn::MulAdd(hn::Set(tag, w.y), hn::LoadU(tag, corners + 4), sum);
+    sum = hn::MulAdd(hn::Set(tag, w.z), hn::LoadU(tag, corners + 8), sum);
+  }
+  float lanes[4];
+  hn::StoreU(sum, tag, lanes);
+  return {lanes[0], lanes[1], lanes[2]};
+}
+
+}  // namespace
+
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
                  int bounces, std::vector<vec3>& out) {
   out.assign(mesh.values(), vec3(0.0f));
   const float share = 1.0f / static_cast<float>(std::max(links.rays(), 1));
   std::vector<vec3> incoming(mesh.samples(), vec3(0.0f));  // sky and bounced light so far
-  std::vector<vec3> reflected(3 * mesh.leaves());          // at the corners of elements, times π
+  // At the corners of elements, times π: three of four floats each, for vectors of that size.
+  std::vector<float> reflected(12 * mesh.leaves(), 0.0f);
   for (int bounce = 0; bounce < bounces; ++bounce) {
     for (size_t s = 0; s < incoming.size(); ++s) incoming[s] = state.sky[s] + out[s];
     tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
       const auto samples = mesh.samplesOfLeaf(static_cast<uint32_t>(k));
-      for (size_t c = 0; c < 3; ++c)
-        reflected[3 * k + c] = state.albedo[k] * (state.direct[3 * k + c] + incoming[samples[c]]);
+      for (size_t c = 0; c < 3; ++c) {
+        const vec3 light = state.albedo[k] * (state.direct[3 * k + c] + incoming[samples[c]]);
+        std::copy_n(&light.x, 3, &reflected[12 * k + 4 * c]);
+      }
     });
     tbb::parallel_for(size_t{0}, mesh.samples(), [&](size_t s) {
-      vec3 sum(0.0f);
-      for (const GatherLink& link : links.of(static_cast<uint32_t>(s))) {
-        if (!link.isLeaf()) continue;
-        const vec3* corners = &reflected[3 * size_t{link.leaf}];
-        const vec3 w = link.weights();
-        sum += w.x * corners[0] + w.y * corners[1] + w.z * corners[2];
-      }
-      out[s] = share * sum;
+      out[s] = share * gathered(links.of(static_cast<uint32_t>(s)), reflected);
     });
     state.smoothing.apply(out);
   }

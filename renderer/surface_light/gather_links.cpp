@@ -70,11 +70,6 @@ GatherLink linkTo(const RenderScene& scene, const RayCaster& caster, const Surfa
 
 }  // namespace
 
-vec3 GatherLink::weights() const {
-  const vec2 w = vec2(u, v) / 255.0f;
-  return {1.0f - w.x - w.y, w.x, w.y};
-}
-
 float GatherLink::metres() const { return std::bit_cast<float>(uint32_t{distance} << 16); }
 
 std::vector<vec3> gatherDirections(int count, uint32_t scramble) {

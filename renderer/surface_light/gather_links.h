@@ -20,7 +20,10 @@ struct GatherLink {
   uint16_t distance = 0x7f80;  // the upper half of a float, rounded up [m]
 
   bool isLeaf() const { return leaf < kInside; }
-  vec3 weights() const;
+  vec3 weights() const {
+    const float second = static_cast<float>(u) / 255.0f, third = static_cast<float>(v) / 255.0f;
+    return {1.0f - second - third, second, third};
+  }
   float metres() const;
 };
 
