@@ -45,8 +45,8 @@ bool SurfaceMesh::update(const RenderScene& scene, const RenderSceneChanges& cha
   return true;
 }
 
-// Returns whether there are few enough samples. Edges without limit always give few enough: each
-// object has at least one sample, but then memory is short for more than that.
+// Returns whether there are few enough samples. Edges longer than the scene are the last try,
+// because each object needs at least one sample.
 bool SurfaceMesh::findShapes(const RenderScene& scene, float edge) {
   const bool isLast = edge > scene.bounds.radius();
   std::atomic<size_t> samples = 0;
