@@ -14,7 +14,7 @@ namespace {
 // Area lights reflect nothing.
 bool hasShape(const RenderScene& scene, uint32_t object) {
   const RenderObject& o = scene.objects[object];
-  return !o.isAreaLight && !scene.materials[static_cast<size_t>(o.material)].isClear();
+  return !o.isEmpty() && !o.isAreaLight && !scene.materials[static_cast<size_t>(o.material)].isClear();
 }
 
 bool wantsBacks(const RenderScene& scene, uint32_t object) {
@@ -25,7 +25,7 @@ bool wantsBacks(const RenderScene& scene, uint32_t object) {
 
 bool SurfaceMesh::update(const RenderScene& scene, const RenderSceneChanges& changes,
                          const SurfaceMeshOptions& options) {
-  bool isSame = !changes.rebuilt && options == options_ && parts_.size() == scene.objects.size();
+  bool isSame = !changes.rebuilt && !changes.objects && options == options_ && parts_.size() == scene.objects.size();
   for (const uint32_t o : changes.movedObjects)
     isSame = isSame && keys_[o] == shapeOf(scene.objects[o]);
   for (uint32_t o = 0; isSame && changes.materials && o < parts_.size(); ++o)

@@ -48,7 +48,7 @@ class MultiMesh final : public GiMethod {
     Settings settings = in.settings;
     settings.set("indirect", std::string("meshes"));
     GiOutput out = lights_.render({in.scene, in.changes, in.view, in.backend, in.services, settings,
-                                   in.frame, in.stopwatch, in.lightOnly, in.part});
+                                   in.frame, in.stopwatch, in.stageTimes, in.lightOnly, in.part});
     MultiMeshStats stats;
     static_cast<GiStats&>(stats) = out.stats;
     stats.take(lights_.surfaceCounts());
