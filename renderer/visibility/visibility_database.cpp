@@ -49,7 +49,9 @@ void VisibilityDatabase::findTopologies(const RenderScene& scene, std::span<cons
   for (const uint32_t object : objects) {
     const auto& topology = topologies_[object];
     const RenderObject& o = scene.objects[object];
-    if (!topology || (!o.isEmpty() && !(topology->shape == shapeOf(o)))) missing.push_back(object);
+    const bool isOfNone = topology && topology->charts.empty() && topology->clusters.empty();
+    if (!topology || (!o.isEmpty() && (isOfNone || !(topology->shape == shapeOf(o)))))
+      missing.push_back(object);
   }
   const auto found = meshes_.find(scene, missing, areMoving);
   for (size_t i = 0; i < missing.size(); ++i) topologies_[missing[i]] = found[i];

@@ -42,7 +42,7 @@ int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options,
 // Limits of a frame for summing light at edges, in units of kLightPixelsUnit. A frame that needs
 // more interpolates the other edges, and the next ones go on. The limit is lower while the camera
 // moves, because each frame sums all lights then.
-constexpr float kMostAtEdges = 512.0f, kMostMoving = 96.0f;
+constexpr float kMostAtEdges = 512.0f, kMostMoving = 256.0f;
 
 // Fine maps of punctual hard-shadow lights per frame: those of a lamp, which has two hemispheres.
 constexpr int kHardMapsAFrame = 2;

@@ -57,7 +57,8 @@ TEST_F(Display, ShowsAHostPictureAsItWouldBeSaved) {
 
 TEST_F(Display, ShowsARadianceTextureTheRightWayUp) {
   const Image image = ramp();
-  const auto texture = std::make_shared<gl::RadianceTexture>(image.width, image.height, nullptr);
+  const auto texture = std::make_shared<gl::RadianceTexture>(
+      image.width, image.height, std::make_shared<gl::PicturePasses>(gl::defaultShaderFolder()));
   glTextureSubImage2D(texture->texture(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
                       image.pixels.data());
   gl::DisplayPass pass;
