@@ -65,8 +65,10 @@ void CarriedLight::find(const GBuffer& g, const SeenPoints& before,
           y < static_cast<float>(g.height)))
       return false;
     const vec3 normal(g.gx[i], g.gy[i], g.gz[i]);
-    const float facing = std::abs(glm::dot(glm::normalize(view.eye - p), normal));
-    const float most = kMostPixels * depth / perMetre / std::max(facing, kLeastFacing);
+    const vec3 toEye = view.eye - p;
+    const float along = glm::dot(toEye, normal), eye2 = glm::dot(toEye, toEye);
+    const float facing2 = std::max(along * along / eye2, kLeastFacing * kLeastFacing);
+    const float most = kMostPixels * depth / perMetre, most2 = most * most / facing2;
     // The nearest pixel, or one beside it.
     for (const auto& [dx, dy] : kAround) {
       const int nx = static_cast<int>(x) + dx, ny = static_cast<int>(y) + dy;
@@ -76,8 +78,8 @@ void CarriedLight::find(const GBuffer& g, const SeenPoints& before,
           (last_.lanes[j / kLanes] >> j % kLanes & 1) == 0)
         continue;
       const vec3 way = vec3(before.px[j], before.py[j], before.pz[j]) - p;
-      const float distance = glm::length(way);
-      if (distance > most || std::abs(glm::dot(way, normal)) > kMostOutOfPlane * distance) continue;
+      const float distance2 = glm::dot(way, way), off = glm::dot(way, normal);
+      if (distance2 > most2 || off * off > kMostOutOfPlane * kMostOutOfPlane * distance2) continue;
       now_.e[i] = last_.e[j];
       return true;
     }

@@ -22,7 +22,12 @@ SumCounts update(IrradianceAccumulator& sums, const GBuffer& points, const Pictu
 
 SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick, uint64_t mostAtEdges,
                            const SeenPoints* before) {
-  if (before != nullptr && pixelsPerBlock != 1) takeCarried(before->px.size() / kTilePixels);
+  // Where all edges can be summed there is nothing to take over.
+  if (before != nullptr && (pixelsPerBlock == 1 || !low.isLong())) {
+    before = nullptr;
+    forgetCarried();
+  }
+  if (before != nullptr) takeCarried(before->px.size() / kTilePixels);
   block = pixelsPerBlock;
   if (block == 1) return update(sums, in.gbuffer, in, {});
   SumCounts counts;
