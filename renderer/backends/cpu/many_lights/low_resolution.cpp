@@ -357,11 +357,14 @@ void LowResolution::findEdges(const GBuffer& picture, const PictureLight& light)
 }
 
 void LowResolution::limitEdges(const GBuffer& picture, const IrradianceAccumulator& sums,
-                               std::span<const LightRecord> lights, uint64_t mostLightPixels) {
+                               std::span<const LightRecord> lights, uint64_t mostLightPixels,
+                               bool isMoving) {
   PacketLimit limit(picture, sums, lights, mostLightPixels);
   uint64_t whole = 0;
   for (const uint32_t edges : edges_) whole += limit.costOf(edges);
   isLong_ = whole > mostLightPixels;
+  // Where not all can be summed, and most is carried over anyway, three eighths are enough.
+  if (isMoving && isLong_ && carried_ != nullptr) limit.lowerTo(mostLightPixels / 8 * 3);
   const size_t tiles = edges_.size();
   for (size_t t = 0; t < tiles; ++t) summed_[t] = limit.goOn(t, edges_[t]);
   const size_t first = carried_ != nullptr ? nextTile_ : 0;

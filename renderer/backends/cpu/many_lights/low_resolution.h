@@ -41,9 +41,9 @@ class LowResolution {
   void useCarried(const CarriedLight* carried) { carried_ = carried; }
   // Limits the work at edges: packets × lights that an update of `sums` to these lights takes.
   // Packets that are summed already come first, then those without carried light, and then others
-  // in turns.
+  // in turns. isMoving: the next picture has another view, so there is less to gain.
   void limitEdges(const GBuffer& picture, const IrradianceAccumulator& sums,
-                  std::span<const LightRecord> lights, uint64_t mostLightPixels);
+                  std::span<const LightRecord> lights, uint64_t mostLightPixels, bool isMoving);
   // Whether there are fewer than all.
   bool isLimited() const { return summed_ != edges_; }
   // Whether there would be, if none was summed before.

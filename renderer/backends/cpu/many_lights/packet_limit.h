@@ -1,6 +1,7 @@
 // Chooses how many packets are summed in one frame, by counted work.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -14,6 +15,8 @@ class PacketLimit {
   // For an update of `sums` to these lights: limits lights × pixels, approximately.
   PacketLimit(const GBuffer& gbuffer, const IrradianceAccumulator& sums,
               std::span<const LightRecord> lights, uint64_t mostLightPixels);
+
+  void lowerTo(uint64_t mostLightPixels) { left_ = std::min(left_, mostLightPixels); }
 
   // Of these packets of a tile (one bit each) those that are summed already and stay so; none if
   // the limit is reached.

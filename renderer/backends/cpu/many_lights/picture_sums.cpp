@@ -45,7 +45,7 @@ SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick, ui
   }
   if (before != nullptr) carried.find(in.gbuffer, *before, low.edges());
   low.useCarried(carried.isOf(in.gbuffer.tiles()) ? &carried : nullptr);
-  if (mostAtEdges != UINT64_MAX) low.limitEdges(in.gbuffer, sums, in.lights, mostAtEdges);
+  if (mostAtEdges != UINT64_MAX) low.limitEdges(in.gbuffer, sums, in.lights, mostAtEdges, isQuick);
   if (!isQuick && !low.isLimited()) forgetCarried();
   return counts + update(sums, in.gbuffer, in, low.summed());
 }
