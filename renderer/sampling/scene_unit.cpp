@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
@@ -33,17 +35,19 @@ float upperQuartile(std::vector<float> lengths) {
   return *at;
 }
 
-SampledPoint onTriangle(const RenderScene& scene, uint32_t index) {
-  const size_t all = scene.triangleCount();
+// The i-th of kRays points, on triangles at even steps through those of all objects. ends: by
+// object, the number of triangles of the objects up to and including it. The indices of hidden
+// objects stay in the scene, so the place of a triangle there does not tell its object.
+SampledPoint onTriangle(std::span<const size_t> ends, uint32_t index) {
+  const size_t all = ends.back();
   const float jitter = toUnitFloat(hash4(index, kSeed, 1, 0));
   const double share = (static_cast<double>(index) + static_cast<double>(jitter)) / kRays;
-  const auto triangle = static_cast<uint32_t>(
-      std::min(static_cast<size_t>(share * static_cast<double>(all)), all - 1));
-  const auto after = std::ranges::upper_bound(scene.objects, 3 * triangle, {},
-                                              [](const RenderObject& o) { return o.firstIndex; });
-  const auto object = static_cast<uint32_t>(after - scene.objects.begin() - 1);
+  const size_t triangle = std::min(static_cast<size_t>(share * static_cast<double>(all)), all - 1);
+  const auto object = std::ranges::upper_bound(ends, triangle) - ends.begin();
+  const size_t first = object == 0 ? 0 : ends[static_cast<size_t>(object) - 1];
   const vec2 weights = sampleTriangle(sobol2(index, kSeed));
-  return {object, triangle - scene.objects[object].firstIndex / 3, weights.x, weights.y};
+  return {static_cast<uint32_t>(object), static_cast<uint32_t>(triangle - first), weights.x,
+          weights.y};
 }
 
 float spacingFrom(const RenderScene& scene, const RayCaster& rays, uint32_t seed,
@@ -89,8 +93,11 @@ const Spacing& SceneSpacing::update(const RenderScene& scene, const RayCaster& r
   surfaces_.update(scene, changes);
   spacing_ = {};
   if (!(surfaces_.area() > 0.0)) return spacing_;
+  std::vector<size_t> ends;
+  for (const RenderObject& o : scene.objects)
+    ends.push_back((ends.empty() ? 0 : ends.back()) + o.triangleCount());
   spacing_.ofTriangles = scene.unit * spacingFrom(scene, rays, kSeed + 1,
-                                                  [&](uint32_t i) { return onTriangle(scene, i); });
+                                                  [&](uint32_t i) { return onTriangle(ends, i); });
   spacing_.ofArea = scene.unit * spacingFrom(scene, rays, kSeed + 2,
                                              [&](uint32_t i) { return surfaces_.at(i, kSeed); });
   return spacing_;

@@ -70,5 +70,32 @@ TEST(SceneSpacing, IsThatOfAClosedForm) {
   EXPECT_NEAR(spacing.ofTriangles, 8.0f * std::sqrt(0.75f), 0.5f);
 }
 
+// Hidden and deleted objects leave empty places in a scene that is edited.
+TEST(SceneSpacing, IsThatOfAFreshStartAfterObjectsAreHidden) {
+  const Scene room = test::roomOfAllLights();
+  RenderScene world;
+  update(world, room, SceneChanges::all());
+  RayCaster rays(world);
+  SceneSpacing kept;
+  kept.update(world, rays, test::everythingRebuilt());
+  int hidden = 0;
+  for (size_t i = 0; i < room.nodes.size(); ++i) {
+    if (room.nodes[i].mesh == kNone) continue;
+    Scene without = room;
+    without.nodes[i].visible = false;
+    for (const Scene* scene : std::initializer_list<const Scene*>{&without, &room}) {
+      const RenderSceneChanges changes =
+          update(world, *scene, compare(scene == &room ? without : room, *scene));
+      EXPECT_FALSE(changes.rebuilt);
+      rays.update(changes);
+      const Spacing now = kept.update(world, rays, changes), fresh = spacingOf(*scene);
+      EXPECT_EQ(now.ofTriangles, fresh.ofTriangles) << i;
+      EXPECT_EQ(now.ofArea, fresh.ofArea) << i;
+    }
+    ++hidden;
+  }
+  EXPECT_GT(hidden, 1);
+}
+
 }  // namespace
 }  // namespace lamplighter
