@@ -300,19 +300,12 @@ uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g,
 
 void SpecularAccumulator::addTo(const GBuffer& g, Image& picture, bool hasEmission) const {
   if (!isOn_) return;
-  tbb::parallel_for(0, g.tiles(), [&](int t) {
-    const Tile& tile = tiles_[static_cast<size_t>(t)];
-    if (tile.gloss.empty()) return;
-    const int x0 = t % g.tilesX * kTileSize, y0 = t / g.tilesX * kTileSize;
-    for (int y = y0; y < std::min(y0 + kTileSize, picture.height); ++y) {
-      for (int x = x0; x < std::min(x0 + kTileSize, picture.width); ++x) {
-        const size_t i = g.index(x, y);
-        const Gloss gloss = tile.gloss[i % kTilePixels];
-        if (shared::isGlossy(gloss.metallic, gloss.roughness))
-          addSpecular(g, i, eye_, gloss, leastRoughness_, tile.radiance(i % kTilePixels),
-                      hasEmission, picture.at(x, y));
-      }
-    }
+  tbb::parallel_for(size_t{0}, tiles_.size(), [&](size_t t) {
+    const Tile& tile = tiles_[t];
+    forEachGlossy(g, t, tile.gloss, [&](int x, int y, size_t i, const Gloss& gloss) {
+      addSpecular(g, i, eye_, gloss, leastRoughness_, tile.radiance(i % kTilePixels), hasEmission,
+                  picture.at(x, y));
+    });
   });
 }
 

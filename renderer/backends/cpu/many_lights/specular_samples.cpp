@@ -58,32 +58,24 @@ uint64_t SpecularSamples::glossyPixels() const {
 }
 
 void SpecularSamples::addTo(const GBuffer& g, const LowResolution& low, Image& picture) const {
-  tbb::parallel_for(0, g.tiles(), [&](int t) {
-    const Tile& tile = tiles_[static_cast<size_t>(t)];
-    if (tile.gloss.empty()) return;
-    const int x0 = t % g.tilesX * kTileSize, y0 = t / g.tilesX * kTileSize;
-    for (int y = y0; y < std::min(y0 + kTileSize, picture.height); ++y) {
-      for (int x = x0; x < std::min(x0 + kTileSize, picture.width); ++x) {
-        const size_t i = g.index(x, y);
-        const Gloss gloss = tile.gloss[i % kTilePixels];
-        if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
-        vec3 sum(0.0f);
-        float weights = 0.0f;
-        for (const LowResolution::Corner& c : low.cornersOf(x, y)) {
-          const size_t sample = low.samples().index(c.i, c.j);
-          if (low.samples().hit[sample] == 0 || low.samples().object[sample] != g.object[i])
-            continue;
-          const auto there = sums_.reflection(sample);
-          if (!there) continue;
-          const float weight = (c.share + kLeastShare) * likeness(g, i, low.samples(), sample);
-          sum += weight * there->radiance / reflectance(low.samples().albedo(sample), there->gloss);
-          weights += weight;
-        }
-        if (weights > 0.0f)
-          addSpecular(g, i, eye_, gloss, leastRoughness_,
-                      sum / weights * reflectance(g.albedo(i), gloss), true, picture.at(x, y));
+  const GBuffer& samples = low.samples();
+  tbb::parallel_for(size_t{0}, tiles_.size(), [&](size_t t) {
+    forEachGlossy(g, t, tiles_[t].gloss, [&](int x, int y, size_t i, const Gloss& gloss) {
+      vec3 sum(0.0f);
+      float weights = 0.0f;
+      for (const LowResolution::Corner& c : low.cornersOf(x, y)) {
+        const size_t sample = samples.index(c.i, c.j);
+        if (samples.hit[sample] == 0 || samples.object[sample] != g.object[i]) continue;
+        const auto there = sums_.reflection(sample);
+        if (!there) continue;
+        const float weight = (c.share + kLeastShare) * likeness(g, i, samples, sample);
+        sum += weight * there->radiance / reflectance(samples.albedo(sample), there->gloss);
+        weights += weight;
       }
-    }
+      if (weights > 0.0f)
+        addSpecular(g, i, eye_, gloss, leastRoughness_,
+                    sum / weights * reflectance(g.albedo(i), gloss), true, picture.at(x, y));
+    });
   });
 }
 
