@@ -7,14 +7,19 @@
 
 namespace lamplighter {
 
+namespace {
+
+// Rays of a frame: some 40 ms on two cores.
+constexpr uint64_t kRaysAFrame = 300'000;
+
+}  // namespace
+
 void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& light,
                             const SurfacePictureOptions& picture) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});
-  const bool isOther = light_.update(in.scene, changes, in.services.rays(), light);
-  if (isOther) shown_ = nullptr;
-  // The elements of a scene keep their numbers only if nothing of it changes.
-  const bool isOtherMesh = changes.surfaces() || (isOther && light_.counts().samplesTraced > 0);
-  if (!isOtherMesh && in.view == view_ && picture == options_) return;
+  if (light_.update(in.scene, changes, in.services.rays(), light, kRaysAFrame)) shown_ = nullptr;
+  // Pixels keep their places on the elements only if nothing of the scene changes.
+  if (light_.keptMesh() && in.view == view_ && picture == options_) return;
   view_ = in.view;
   options_ = picture;
   plain_ = smooth_ = {};
@@ -24,24 +29,30 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
 std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
                                                      const std::shared_ptr<RadianceImage>& picture,
                                                      int antialias, bool& gbufferIsCurrent) {
-  if (shown_ && picture == under_ && antialias == antialias_) return shown_;
-  SurfacePicture& pixels = antialias > 1 ? smooth_ : plain_;
-  if (pixels.samples() != antialias) {
-    pixels.restart(view_.width, view_.height, antialias);
-    for (int i = 0; i < antialias; ++i) {
-      if (antialias > 1 || !gbufferIsCurrent)
-        in.backend.renderGBuffer(view_, antialias > 1 ? pixelJitter(i, antialias) : vec2(0.0f));
-      gbufferIsCurrent = antialias == 1;
-      pixels.add(in.scene, in.services.rays(), light_.mesh(), light_.cuts(),
-                 in.backend.hostGBuffer(), view_.eye, options_);
-    }
-  }
+  if (antialias > 1 && smooth_.samples() < antialias)
+    addSample(in, smooth_, antialias, gbufferIsCurrent);
+  isSmooth_ = antialias <= 1 || smooth_.samples() == antialias;
+  const int shown = isSmooth_ ? antialias : 1;
+  if (shown <= 1 && plain_.samples() == 0) addSample(in, plain_, 1, gbufferIsCurrent);
+  if (shown_ && picture == under_ && shown == antialias_) return shown_;
   Image sum = picture->pixels();
-  pixels.addTo(light_.values(), sum);
+  (shown > 1 ? smooth_ : plain_).addTo(light_.values(), sum);
   under_ = picture;
-  antialias_ = antialias;
+  antialias_ = shown;
   shown_ = std::make_shared<HostImage>(std::move(sum));
   return shown_;
+}
+
+void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
+                               bool& gbufferIsCurrent) {
+  if (pixels.samples() == 0) pixels.restart(view_.width, view_.height, samples);
+  if (samples > 1 || !gbufferIsCurrent) {
+    const vec2 shift = samples > 1 ? pixelJitter(pixels.samples(), samples) : vec2(0.0f);
+    in.backend.renderGBuffer(view_, shift);
+  }
+  gbufferIsCurrent = samples == 1;
+  pixels.add(in.scene, in.services.rays(), light_.mesh(), light_.cuts(), in.backend.hostGBuffer(),
+             view_.eye, options_);
 }
 
 }  // namespace lamplighter

@@ -1,4 +1,5 @@
-// The bounced light of a picture, from light on surfaces: current in every frame.
+// The bounced light of a picture, from light on surfaces. Each frame shows all of it, at first with
+// the noise of few rays.
 #pragma once
 
 #include <memory>
@@ -13,21 +14,27 @@ class BouncedPicture {
  public:
   // To be called with the changes of each frame, also of those that do not show the light.
   void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
-  // Brings the light up to date.
+  // Goes on with the light, by a limited number of rays.
   void update(const FrameInputs& in, const SurfaceLightOptions& light,
               const SurfacePictureOptions& picture);
 
   // `picture` plus bounced light, the mean of `antialias` shifted pictures (1: without a shift).
-  // `gbufferIsCurrent`: whether the backend has the G-buffer of the view without a shift; set to
-  // what it has afterwards.
+  // Each frame adds one of them; until they are complete it is without a shift. `gbufferIsCurrent`:
+  // whether the backend has the G-buffer of the view without a shift; set to what it has
+  // afterwards.
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture, int antialias,
                                        bool& gbufferIsCurrent);
+  // Whether the last picture has all rays and is as smooth as wanted.
+  bool isDone() const { return light_.isDone() && isSmooth_; }
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const { return plain_.bytes() + smooth_.bytes(); }
   void forget() { *this = BouncedPicture(); }
 
  private:
+  void addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
+                 bool& gbufferIsCurrent);
+
   SurfaceLight light_;
   RenderSceneChanges unseen_;  // since the last update
   SurfacePictureOptions options_;
@@ -36,6 +43,7 @@ class BouncedPicture {
   // What was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;
   int antialias_ = 0;
+  bool isSmooth_ = false;
 };
 
 }  // namespace lamplighter

@@ -18,7 +18,9 @@ const ParameterTable<SurfaceLightParameters>& surfaceLightParameters() {
        "gather_rays",
        "Gather rays",
        "",
-       "Rays from each corner of an element that find the bounced light that arrives there.",
+       "Rays from each corner of an element that find the bounced light that arrives there. At "
+       "least "
+       "64 where link_memory is short.",
        {16, 4096, kLogarithmic},
        ParameterGroup::quality},
       {&P::mask,

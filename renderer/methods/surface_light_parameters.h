@@ -10,8 +10,8 @@ namespace lamplighter {
 struct SurfaceLightParameters {
   float coarseEdge = 0.25f;  // [m]
   int gatherRays = 256;
-  int linkMemory = 256;  // MiB
-  int mask = 0;          // places along a side of a light
+  int linkMemory = 64;  // MiB
+  int mask = 0;         // places along a side of a light
   bool operator==(const SurfaceLightParameters&) const = default;
 
   SurfaceLightOptions surfaceLight(int bounces, int seed) const {

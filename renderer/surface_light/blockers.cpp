@@ -69,7 +69,8 @@ BoundsTree treeOf(const RenderScene& scene, const RenderObject& o) {
 
 void Blockers::update(const RenderScene& scene, bool isNew,
                       std::span<const uint32_t> movedObjects) {
-  if (isNew) triangles_.assign(scene.objects.size(), {});
+  if (isNew) triangles_.clear();
+  triangles_.resize(scene.objects.size());
   if (!isNew && movedObjects.empty()) return;
   std::vector<uint32_t> stale(movedObjects.begin(), movedObjects.end());
   for (uint32_t o = 0; isNew && o < scene.objects.size(); ++o) stale.push_back(o);

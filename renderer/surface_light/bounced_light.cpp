@@ -29,15 +29,16 @@ vec3 gathered(std::span<const GatherLink> links, const std::vector<float>& refle
 }  // namespace
 
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
-                 int bounces, std::vector<vec3>& out) {
+                 int bounces, int most, std::vector<vec3>& out) {
   out.assign(mesh.values(), vec3(0.0f));
-  const float share = 1.0f / static_cast<float>(std::max(links.rays(), 1));
   std::vector<vec3> incoming(mesh.samples(), vec3(0.0f));  // sky and bounced light so far
   // At the corners of elements, times π: three of four floats each, for vectors of that size.
   std::vector<float> reflected(12 * mesh.leaves(), 0.0f);
   for (int bounce = 0; bounce < bounces; ++bounce) {
+    const auto used = static_cast<size_t>(bounce + 1 == bounces ? most : (most + 3) / 4);
     for (size_t s = 0; s < incoming.size(); ++s) incoming[s] = state.sky[s] + out[s];
     tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
+      if (mesh.objectOfLeaf(static_cast<uint32_t>(k)) == SurfaceMesh::kUnused) return;
       const auto samples = mesh.samplesOfLeaf(static_cast<uint32_t>(k));
       for (size_t c = 0; c < 3; ++c) {
         const vec3 light = state.albedo[k] * (state.direct[3 * k + c] + incoming[samples[c]]);
@@ -45,9 +46,13 @@ void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const Surfac
       }
     });
     tbb::parallel_for(size_t{0}, mesh.samples(), [&](size_t s) {
-      out[s] = share * gathered(links.of(static_cast<uint32_t>(s)), reflected);
+      const auto sample = static_cast<uint32_t>(s);
+      if (mesh.objectOfSample(sample) == SurfaceMesh::kUnused) return;
+      const auto known = links.of(sample);
+      const auto ends = known.first(std::min(known.size(), used));
+      out[s] = gathered(ends, reflected) / static_cast<float>(ends.size());
     });
-    state.smoothing.apply(out);
+    state.smoothing.apply(mesh, out);
   }
   // Vertices of small triangles.
   tbb::parallel_for(size_t{0}, mesh.objects(), [&](size_t o) {

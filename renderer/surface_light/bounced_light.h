@@ -20,8 +20,10 @@ struct SurfaceState {
 };
 
 // Irradiance [W/m²] by bounced light: what other surfaces reflect after 1 to `bounces` bounces.
-// Buried samples have the mean of their neighbours. `out`: by value (SurfaceMesh::values()).
+// Buried samples have the mean of their neighbours. `most`: links of a sample that are used for the
+// last bounce; earlier ones use a quarter, because their noise is averaged once more. `out`: by
+// value (SurfaceMesh::values()).
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
-                 int bounces, std::vector<vec3>& out);
+                 int bounces, int most, std::vector<vec3>& out);
 
 }  // namespace lamplighter

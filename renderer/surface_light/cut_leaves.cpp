@@ -41,15 +41,17 @@ bool touches(const Bounds& a, const Bounds& b) {
 uint64_t CutLeaves::update(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
                            bool isNewMesh, std::span<const uint32_t> movedObjects,
                            std::span<const Bounds> boxes) {
-  if (isNewMesh) isCut_.assign(mesh.leaves(), 0);
+  if (isNewMesh) isCut_.clear();
+  isCut_.resize(mesh.leaves(), 0);
   mayDiffer_.assign(mesh.leaves(), isNewMesh ? 1 : 0);
+  largestChanged_ = 0.0f;
   if (!isNewMesh && boxes.empty()) return 0;
   std::vector<bool> isMoved(mesh.objects(), false);
   for (const uint32_t o : movedObjects) isMoved[o] = true;
   std::atomic<uint64_t> traced = 0;
   tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
     const auto leaf = static_cast<uint32_t>(k);
-    if (mesh.isCluster(leaf)) return;
+    if (mesh.objectOfLeaf(leaf) == SurfaceMesh::kUnused || mesh.isCluster(leaf)) return;
     const Corners corners = cornersOf(scene, mesh, leaf);
     const auto isNear = [&](const Bounds& b) { return touches(corners.bounds, b); };
     if (!isNewMesh && !isMoved[mesh.objectOfLeaf(leaf)] && std::ranges::none_of(boxes, isNear))
@@ -62,6 +64,11 @@ uint64_t CutLeaves::update(const RenderScene& scene, const RayCaster& rays, cons
       ++traced;
     }
   });
+  if (isNewMesh) return traced;
+  for (uint32_t leaf = 0; leaf < mesh.leaves(); ++leaf)
+    if (mayDiffer_[leaf])
+      largestChanged_ =
+          std::max(largestChanged_, 2.0f * cornersOf(scene, mesh, leaf).bounds.radius());
   return traced;
 }
 

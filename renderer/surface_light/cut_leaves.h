@@ -20,6 +20,8 @@ class CutLeaves {
 
   // Whether the last update may have changed what keepVisible() does for an element.
   bool mayDiffer(uint32_t leaf) const { return mayDiffer_[leaf] != 0; }
+  // Size of the largest of these elements [m], if only some were tested.
+  float largestChanged() const { return largestChanged_; }
   bool isCut(uint32_t leaf) const { return isCut_[leaf] != 0; }
   // Removes from the weights of a cut element's corners those that the place does not see. If it
   // sees none, all stay.
@@ -29,6 +31,7 @@ class CutLeaves {
 
  private:
   std::vector<uint8_t> isCut_, mayDiffer_;  // by element
+  float largestChanged_ = 0.0f;
 };
 
 }  // namespace lamplighter

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
 #include "renderer/sampling/path_tracing.h"
 
 namespace lamplighter {
@@ -15,133 +19,322 @@ RenderPunctual withoutBrightness(RenderPunctual light) {
   return light;
 }
 
-bool overlap(const Bounds& a, const Bounds& b) {
-  return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+// Rays from an element to a light of which it sees a part.
+constexpr uint32_t kPartialRays = 24, kPartialSet = 0x52;
+
+// Of so many elements one shows the light of all until that of each is found.
+constexpr uint32_t kSpread = 8;
+
+uint32_t leaderOf(const SurfaceMesh& mesh, uint32_t leaf) {
+  return leaf - (leaf - mesh.part(mesh.objectOfLeaf(leaf)).firstLeaf) % kSpread;
+}
+
+// Where the light of an element is found.
+std::vector<SurfaceSpot> spotsOf(const DirectFactors::Scene& now, uint32_t leaf) {
+  const uint32_t object = now.mesh.objectOfLeaf(leaf);
+  std::vector<SurfaceSpot> spots;
+  if (now.isMixed[leaf] != 0) {
+    for (const uint32_t sample : now.mesh.samplesOfLeaf(leaf))
+      spots.push_back(spotAt(now.scene, object, now.mesh.placesOfSample(sample)[0]));
+  } else {
+    for (const SurfacePlace& place : now.mesh.placesOfLeaf(leaf))
+      spots.push_back(spotAt(now.scene, object, place));
+  }
+  return spots;
+}
+
+Bounds boundsOf(const DirectFactors::Scene& now, uint32_t leaf) {
+  Bounds out;
+  for (const SurfaceSpot& spot : spotsOf(now, leaf)) out.add(spot.position);
+  return out;
+}
+
+// A sphere around a box.
+struct Ball {
+  vec3 centre;
+  float radius;
+  explicit Ball(const Bounds& box) : centre(box.centre()), radius(box.radius()) {}
+};
+
+// Whether the hull of two spheres may touch a third one. Conservative.
+bool mayBeBetween(const Ball& a, const Ball& b, const Ball& between) {
+  const vec3 axis = b.centre - a.centre;
+  const float length2 = glm::dot(axis, axis);
+  const float t = length2 > 0.0f
+                      ? std::clamp(glm::dot(between.centre - a.centre, axis) / length2, 0.0f, 1.0f)
+                      : 0.0f;
+  // The hull is thicker than the segment's radius there by no more than their difference.
+  const float thickest = std::max(a.radius, b.radius);
+  const float radius = 1.001f * (between.radius + thickest);
+  const vec3 d = between.centre - (a.centre + t * axis);
+  return glm::dot(d, d) <= radius * radius;
 }
 
 }  // namespace
 
-uint64_t DirectFactors::update(const Scene& now, bool isNewMesh,
-                               std::span<const uint32_t> movedObjects,
-                               std::span<const Bounds> boxes) {
+// What the stages of an update share.
+struct DirectFactors::Work {
+  const Scene& now;
+  std::vector<uint8_t> isNew;  // by emitter: nothing of it is known
+  std::vector<EmitterFactor> emitters{};
+  std::vector<std::optional<FlatLight>> flat{};
+  std::atomic<size_t> computed = 0, masked = 0, open = 0, traced = 0;
+};
+
+// Finds the columns of the present emitters among those known. Returns which have none.
+std::vector<uint8_t> DirectFactors::matchColumns(const Scene& now, bool isNewMesh,
+                                                 const std::vector<bool>& isMoved) {
   const std::vector<VplId> ids = emitterIds(now.lights);
-  std::vector<bool> isMoved(now.mesh.objects(), false);
-  for (const uint32_t o : movedObjects) isMoved[o] = true;
   std::vector<Column> before = std::move(columns_);
   columns_ = std::vector<Column>(ids.size());
   const bool isSameSky = now.lights.referenceSky().sky() == sky_;
   sky_ = now.lights.referenceSky().sky();
-  std::vector<uint8_t> isStale(ids.size(), 1);
+  const size_t leaves = now.mesh.leaves();
+  std::vector<uint8_t> isNew(ids.size(), 1);
+  std::vector<size_t> oldOf(ids.size());
+  bool isSameOrder = before.size() == ids.size();
   for (size_t i = 0; i < ids.size(); ++i) {
     const Emitter& e = now.lights.emitters()[i];
     Column& column = columns_[i];
     column.id = ids[i];
     column.reference = e.reference;
-    column.isColoured = EmitterFactor(now.scene, now.lights, i, now.seed).isColoured();
+    column.isColoured = EmitterFactor(now.scene, now.lights, i, ids[i], now.seed).isColoured();
     if (e.kind == EmitterKind::punctual)
       column.light = withoutBrightness(now.scene.punctuals[e.punctual]);
     // Most emitters keep their place.
     size_t old = i;
     if (old >= before.size() || before[old].id != column.id)
       old = static_cast<size_t>(std::ranges::find(before, column.id, &Column::id) - before.begin());
-    const size_t size = 3 * now.mesh.leaves() * (column.isColoured ? 3 : 1);
-    if (!isNewMesh && old < before.size() && before[old].light == column.light &&
-        before[old].reference == column.reference && before[old].factors.size() == size &&
-        (e.kind != EmitterKind::sky || isSameSky) &&
+    isSameOrder = isSameOrder && old == i;
+    oldOf[i] = old;
+    if (!isNewMesh && now.mask == mask_ && old < before.size() &&
+        before[old].light == column.light && before[old].reference == column.reference &&
+        before[old].isColoured == column.isColoured && (e.kind != EmitterKind::sky || isSameSky) &&
         !(e.kind == EmitterKind::surface && isMoved[e.object])) {
       column.factors = std::move(before[old].factors);
-      isStale[i] = 0;
-    } else {
-      column.factors.assign(size, 0.0f);
+      isNew[i] = 0;
     }
+    column.factors.resize(3 * leaves * (column.isColoured ? 3 : 1), 0.0f);
   }
-  uint64_t rays = 0;
-  computed_ = masked_ = open_ = 0;
+  if (isSameOrder && !isNewMesh) {
+    stale_.resize(leaves * words_, 0);
+    return isNew;
+  }
+  const DirectFactors& known = *this;
+  const std::vector<uint64_t> staleBefore = std::move(stale_);
+  const size_t wordsBefore = words_;
+  words_ = (ids.size() + 63) / 64;
+  stale_.assign(leaves * words_, 0);
+  for (size_t leaf = 0; !isNewMesh && known.staleLeaves_ > 0 && leaf < leaves; ++leaf) {
+    if ((leaf + 1) * wordsBefore > staleBefore.size()) break;
+    for (size_t e = 0; e < ids.size(); ++e)
+      if (oldOf[e] < before.size() &&
+          (staleBefore[leaf * wordsBefore + oldOf[e] / 64] >> oldOf[e] % 64 & 1u) != 0)
+        setStale(leaf, e);
+  }
+  return isNew;
+}
+
+uint64_t DirectFactors::update(const Scene& now, bool isNewMesh,
+                               std::span<const uint32_t> movedObjects,
+                               std::span<const Bounds> boxes, uint64_t mostRays) {
+  std::vector<bool> isMoved(now.mesh.objects(), false);
+  for (const uint32_t o : movedObjects) isMoved[o] = true;
+  const size_t columnsBefore = columns_.size();
+  Work work{now, matchColumns(now, isNewMesh, isMoved)};
   if (now.mask != 0) blockers_.update(now.scene, isNewMesh || mask_ == 0, movedObjects);
-  if (now.mask != mask_) std::ranges::fill(isStale, uint8_t{1});
   mask_ = now.mask;
   const bool isOtherwiseMixed =
       wasMixed_.size() != now.isMixed.size() || !std::ranges::equal(wasMixed_, now.isMixed);
-  if (!boxes.empty() || isOtherwiseMixed || std::ranges::count(isStale, 1) > 0)
-    find(now, isStale, isMoved, boxes, rays);
+  const bool hasNew = std::ranges::count(work.isNew, 1) > 0;
+  computed_ = masked_ = open_ = 0;
+  changed_ = hasNew || columns_.size() != columnsBefore || !movedObjects.empty();
+  if (!hasNew && boxes.empty() && movedObjects.empty() && !isOtherwiseMixed && isDone()) return 0;
+
+  const std::vector<VplId> ids = emitterIds(now.lights);
+  for (size_t e = 0; e < columns_.size(); ++e) {
+    work.emitters.emplace_back(now.scene, now.lights, e, ids[e], now.seed);
+    work.flat.push_back(work.emitters.back().flat(now.mask));
+  }
+  if (hasNew || isOtherwiseMixed || !boxes.empty() || !movedObjects.empty())
+    outdate(work, isMoved, boxes);
   wasMixed_.assign(now.isMixed.begin(), now.isMixed.end());
-  return rays;
+  const std::vector<uint32_t> chosen = choose(work, mostRays);
+  tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t k) { find(work, chosen[k]); });
+  if (hasNew && !isDone()) spread(work);
+  changed_ = changed_ || !chosen.empty();
+  computed_ = work.computed;
+  masked_ = work.masked;
+  open_ = work.open;
+  return work.traced;
 }
 
-void DirectFactors::find(const Scene& now, const std::vector<uint8_t>& isStale,
-                         const std::vector<bool>& isMoved, std::span<const Bounds> boxes,
-                         uint64_t& rays) {
-  std::vector<EmitterFactor> emitters;
-  std::vector<std::optional<FlatLight>> flat;
-  for (size_t e = 0; e < columns_.size(); ++e) {
-    emitters.emplace_back(now.scene, now.lights, e, now.seed);
-    flat.push_back(emitters.back().flat(now.mask));
-  }
-  std::atomic<uint64_t> traced = 0, computed = 0, masked = 0, open = 0;
+// Marks what may differ.
+void DirectFactors::outdate(const Work& work, const std::vector<bool>& isMoved,
+                            std::span<const Bounds> boxes) {
+  const Scene& now = work.now;
   tbb::parallel_for(size_t{0}, now.mesh.leaves(), [&](size_t k) {
     const auto leaf = static_cast<uint32_t>(k);
     const uint32_t object = now.mesh.objectOfLeaf(leaf);
-    const uint32_t leftOutBy = now.scene.objects[object].leftOutBy;
-    std::vector<SurfaceSpot> spots;
-    Bounds own;
-    if (now.isMixed[k] != 0) {
-      for (const uint32_t sample : now.mesh.samplesOfLeaf(leaf))
-        spots.push_back(spotAt(now.scene, object, now.mesh.placesOfSample(sample)[0]));
-    } else {
-      for (const SurfacePlace& place : now.mesh.placesOfLeaf(leaf))
-        spots.push_back(spotAt(now.scene, object, place));
+    if (object == SurfaceMesh::kUnused) {
+      std::ranges::fill(staleOf(k), 0u);
+      return;
     }
-    for (const SurfaceSpot& spot : spots) own.add(spot.position);
     const bool isOther = k >= wasMixed_.size() || wasMixed_[k] != now.isMixed[k];
-    const bool isCluster = now.mesh.isCluster(leaf);
-    const uint32_t key = leaf - now.mesh.part(object).firstLeaf;
-    std::vector<LightRay> lights;
-    for (size_t e = 0; e < emitters.size(); ++e) {
-      const bool isNew = isStale[e] != 0 || isMoved[object] || isOther;
-      if (!isNew) {
-        Bounds shaft = own;
-        shaft.add(emitters[e].bounds());
-        const bool isFar = emitters[e].bounds().empty();
-        if (std::ranges::none_of(boxes,
-                                 [&](const Bounds& b) { return isFar || overlap(b, shaft); }))
-          continue;
+    std::optional<Ball> ball;
+    for (size_t e = 0; e < work.emitters.size(); ++e) {
+      if (work.isNew[e] || isMoved[object] || isOther) {
+        setStale(k, e);
+      } else if (!boxes.empty() && !isStale(k, e)) {
+        if (!ball) ball = Ball(boundsOf(now, leaf));
+        const Bounds& light = work.emitters[e].bounds();
+        if (light.empty() || std::ranges::any_of(boxes, [&](const Bounds& b) {
+              return mayBeBetween(*ball, Ball(light), Ball(b));
+            }))
+          setStale(k, e);
       }
-      emitters[e].raysTo(spots, leftOutBy, key, lights);
-      const auto touches = [&](const LightRay& l) {
-        return std::ranges::any_of(boxes, [&](const Bounds& b) { return mayTouch(l.ray, b); });
-      };
-      // A mask shows the whole light, not only where the rays go.
-      if (!isNew && !flat[e] && std::ranges::none_of(lights, touches)) continue;
-      std::array<vec3, 3> corners{};
-      for (const LightRay& l : lights) {
-        float share = 0.0f;
-        const auto byMask = flat[e] ? maskedShare(now.scene, blockers_, *flat[e], spots[l.spot])
-                                    : std::optional<MaskedShare>();
-        if (byMask) {
-          share = byMask->share;
-          ++(byMask->isOpen ? open : masked);
-        } else {
-          share = now.rays.occluded(l.ray) ? 0.0f : 1.0f;
-          ++traced;
-        }
-        if (!isCluster)
-          corners[l.spot] = share * l.irradiance;
-        else
-          corners[0] += share * l.irradiance / static_cast<float>(spots.size());
-      }
-      if (isCluster) corners[1] = corners[2] = corners[0];
-      ++computed;
-      Column& column = columns_[e];
-      const int channels = column.isColoured ? 3 : 1;
-      float* out = &column.factors[3 * k * static_cast<size_t>(channels)];
-      for (const vec3& corner : corners)
-        for (int c = 0; c < channels; ++c) *out++ = corner[c];
     }
   });
-  rays += traced;
-  computed_ = computed;
-  masked_ = masked;
-  open_ = open;
+}
+
+// The elements whose light is found in this call: of new emitters at least one of kSpread.
+std::vector<uint32_t> DirectFactors::choose(const Work& work, uint64_t mostRays) {
+  const SurfaceMesh& mesh = work.now.mesh;
+  const auto leaves = static_cast<uint32_t>(mesh.leaves());
+  const bool hasNew = std::ranges::count(work.isNew, 1) > 0;
+  std::vector<uint8_t> isChosen(leaves, 0);
+  uint64_t planned = 0;
+  const auto take = [&](uint32_t leaf) {
+    uint64_t stale = 0;
+    for (const uint64_t word : staleOf(leaf)) stale += static_cast<uint64_t>(std::popcount(word));
+    if (stale == 0 || isChosen[leaf]) return;
+    isChosen[leaf] = 1;
+    planned += 3 * stale;
+  };
+  for (uint32_t leaf = 0; hasNew && leaf < leaves; ++leaf)
+    if (mesh.objectOfLeaf(leaf) != SurfaceMesh::kUnused && leaderOf(mesh, leaf) == leaf) take(leaf);
+  const uint32_t first = next_ < leaves ? next_ : 0;
+  for (uint32_t i = 0; i < leaves && planned < mostRays; ++i) {
+    next_ = (first + i) % leaves;
+    take(next_);
+  }
+  std::vector<uint32_t> chosen;
+  staleLeaves_ = 0;
+  for (uint32_t leaf = 0; leaf < leaves; ++leaf) {
+    if (isChosen[leaf])
+      chosen.push_back(leaf);
+    else if (std::ranges::any_of(staleOf(leaf), [](uint64_t word) { return word != 0; }))
+      ++staleLeaves_;
+  }
+  return chosen;
+}
+
+// The light of an element on which a shadow falls: more rays, from places all over it. Each corner
+// gets the share of the light that is seen around it. Returns the number of rays.
+uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t leaf,
+                                    std::array<vec3, 3>& corners) {
+  const Scene& now = work.now;
+  const uint32_t object = now.mesh.objectOfLeaf(leaf);
+  const uint32_t key = leaf - now.mesh.part(object).firstLeaf;
+  const auto places = now.mesh.placesOfLeaf(leaf);
+  std::array<vec2, 3> at;
+  for (size_t c = 0; c < 3; ++c) at[c] = {places[c].u, places[c].v};
+  const vec2 middle = (at[0] + at[1] + at[2]) / 3.0f;
+  std::vector<SurfaceSpot> spots;
+  std::vector<vec3> weights;
+  for (uint32_t i = 0; i < kPartialRays; ++i) {
+    const vec2 p = sobol2(i, hash4(key, 0, 0, kPartialSet));
+    const float root = std::sqrt(p.x);
+    weights.emplace_back(1.0f - root, root * (1.0f - p.y), root * p.y);
+    // The places are half way between the middle and the corners.
+    vec2 place(0.0f);
+    for (int c = 0; c < 3; ++c)
+      place += weights.back()[c] * (2.0f * at[static_cast<size_t>(c)] - middle);
+    spots.push_back(spotAt(now.scene, object, {places[0].triangle, place.x, place.y}));
+  }
+  std::vector<LightRay> lights;
+  work.emitters[emitter].raysTo(spots, now.scene.objects[object].leftOutBy, ~key, lights);
+  std::array<vec3, 3> seen{}, all{};
+  for (const LightRay& l : lights) {
+    const bool isSeen = !now.rays.occluded(l.ray);
+    for (size_t c = 0; c < 3; ++c) {
+      const vec3 part = weights[l.spot][static_cast<int>(c)] * l.irradiance;
+      all[c] += part;
+      if (isSeen) seen[c] += part;
+    }
+  }
+  for (size_t c = 0; c < 3; ++c)
+    for (int k = 0; k < 3; ++k) corners[c][k] *= all[c][k] > 0.0f ? seen[c][k] / all[c][k] : 0.0f;
+  return lights.size();
+}
+
+// Finds all light of an element that is out of date.
+void DirectFactors::find(Work& work, uint32_t leaf) {
+  const Scene& now = work.now;
+  const uint32_t object = now.mesh.objectOfLeaf(leaf);
+  const uint32_t leftOutBy = now.scene.objects[object].leftOutBy;
+  const bool isCluster = now.mesh.isCluster(leaf);
+  const uint32_t key = leaf - now.mesh.part(object).firstLeaf;
+  const std::vector<SurfaceSpot> spots = spotsOf(now, leaf);
+  std::vector<LightRay> lights;
+  for (size_t e = 0; e < work.emitters.size(); ++e) {
+    if (!isStale(leaf, e)) continue;
+    work.emitters[e].raysTo(spots, leftOutBy, key, lights);
+    std::array<vec3, 3> corners{}, open{};
+    size_t visible = 0, tested = 0;
+    for (const LightRay& l : lights) {
+      float share = 0.0f;
+      const auto& flat = work.flat[e];
+      const auto byMask = flat ? maskedShare(now.scene, blockers_, *flat, spots[l.spot])
+                               : std::optional<MaskedShare>();
+      if (byMask) {
+        share = byMask->share;
+        ++(byMask->isOpen ? work.open : work.masked);
+      } else {
+        share = now.rays.occluded(l.ray) ? 0.0f : 1.0f;
+        ++work.traced;
+        ++tested;
+        visible += share > 0.0f ? 1 : 0;
+      }
+      if (!isCluster) open[l.spot] = l.irradiance;
+      if (!isCluster)
+        corners[l.spot] = share * l.irradiance;
+      else
+        corners[0] += share * l.irradiance / static_cast<float>(spots.size());
+    }
+    if (!isCluster && now.isMixed[leaf] == 0 && visible > 0 && visible < tested) {
+      corners = open;
+      work.traced += findPartial(work, e, leaf, corners);
+    }
+    if (isCluster) corners[1] = corners[2] = corners[0];
+    ++work.computed;
+    Column& column = columns_[e];
+    const size_t channels = column.isColoured ? 3 : 1;
+    float* out = &column.factors[3 * size_t{leaf} * channels];
+    for (const vec3& corner : corners) out = std::copy_n(&corner.x, channels, out);
+  }
+  std::ranges::fill(staleOf(leaf), 0u);
+}
+
+// Gives the light of new emitters that is not found yet that of an element near it.
+void DirectFactors::spread(const Work& work) {
+  const SurfaceMesh& mesh = work.now.mesh;
+  tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
+    const auto leaf = static_cast<uint32_t>(k);
+    if (mesh.objectOfLeaf(leaf) == SurfaceMesh::kUnused) return;
+    const uint32_t leader = leaderOf(mesh, leaf);
+    for (size_t e = 0; e < columns_.size(); ++e) {
+      if (!work.isNew[e] || !isStale(k, e)) continue;
+      const size_t channels = columns_[e].isColoured ? 3 : 1;
+      float* factors = columns_[e].factors.data();
+      for (size_t c = 0; c < channels; ++c) {
+        const float* from = factors + 3 * leader * channels + c;
+        float* to = factors + 3 * k * channels + c;
+        to[0] = to[channels] = to[2 * channels] =
+            (from[0] + from[channels] + from[2 * channels]) / 3.0f;
+      }
+    }
+  });
 }
 
 void DirectFactors::sum(const LightSet& lights, std::vector<vec3>& out) const {
@@ -159,7 +352,7 @@ void DirectFactors::sum(const LightSet& lights, std::vector<vec3>& out) const {
 }
 
 size_t DirectFactors::bytes() const {
-  size_t bytes = 0;
+  size_t bytes = stale_.size() * sizeof(uint64_t);
   for (const Column& column : columns_) bytes += column.factors.size() * sizeof(float);
   return bytes;
 }

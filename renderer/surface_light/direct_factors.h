@@ -24,10 +24,15 @@ class DirectFactors {
     uint32_t seed;
     int mask;  // places along a side of a flat light whose visibility is found exactly; 0: by rays
   };
-  // After changes of the scene. `isNewMesh`: the elements have other numbers. Only what may differ
-  // is computed again. `boxes`: bounds of what moved, before and after. Returns the number of rays.
+  // After changes of the scene. `isNewMesh`: all elements are other ones. `movedObjects`: those
+  // that moved or have other elements. `boxes`: bounds of what moved, before and after. Only what
+  // may differ is computed again, up to about `mostRays`; the rest keeps its old light, or has that
+  // of an element near it, until later calls. Returns the number of rays.
   uint64_t update(const Scene& now, bool isNewMesh, std::span<const uint32_t> movedObjects,
-                  std::span<const Bounds> boxes);
+                  std::span<const Bounds> boxes, uint64_t mostRays);
+  bool isDone() const { return staleLeaves_ == 0; }
+  // Whether the last update changed anything but the brightness of lights.
+  bool changed() const { return changed_; }
   // Irradiance at the corners of the elements with the present brightness of the lights: three for
   // each element [W/m²].
   void sum(const LightSet& lights, std::vector<vec3>& out) const;
@@ -37,7 +42,6 @@ class DirectFactors {
   size_t open() const { return open_; }
   size_t factors() const { return computed_; }  // computed in the last update
   size_t bytes() const;
-  void forget() { *this = DirectFactors(); }
 
  private:
   // The factors of one emitter, by element and corner; of each channel if they differ.
@@ -48,11 +52,33 @@ class DirectFactors {
     bool isColoured = false;
     std::vector<float> factors;
   };
-  void find(const Scene& now, const std::vector<uint8_t>& isStale, const std::vector<bool>& isMoved,
-            std::span<const Bounds> boxes, uint64_t& rays);
+  struct Work;
+  std::vector<uint8_t> matchColumns(const Scene& now, bool isNewMesh,
+                                    const std::vector<bool>& isMoved);
+  void outdate(const Work& work, const std::vector<bool>& isMoved, std::span<const Bounds> boxes);
+  std::vector<uint32_t> choose(const Work& work, uint64_t mostRays);
+  void find(Work& work, uint32_t leaf);
+  static uint64_t findPartial(const Work& work, size_t emitter, uint32_t leaf,
+                              std::array<vec3, 3>& corners);
+  void spread(const Work& work);
+
+  // One bit for each emitter.
+  std::span<uint64_t> staleOf(size_t leaf) {
+    return std::span(stale_).subspan(leaf * words_, words_);
+  }
+  void setStale(size_t leaf, size_t emitter) {
+    stale_[leaf * words_ + emitter / 64] |= uint64_t{1} << emitter % 64;
+  }
+  bool isStale(size_t leaf, size_t emitter) const {
+    return (stale_[leaf * words_ + emitter / 64] >> emitter % 64 & 1u) != 0;
+  }
 
   std::vector<Column> columns_;  // by emitter
   std::vector<uint8_t> wasMixed_;
+  std::vector<uint64_t> stale_;  // by element
+  size_t words_ = 0, staleLeaves_ = 0;
+  uint32_t next_ = 0;  // the element at which the next call goes on
+  bool changed_ = false;
   Sky sky_;  // at its reference brightness
   int mask_ = 0;
   Blockers blockers_;  // if there are masks

@@ -25,12 +25,12 @@ float cosineOf(const SurfaceSpot& spot, const vec3& w) {
 }  // namespace
 
 EmitterFactor::EmitterFactor(const RenderScene& scene, const LightSet& lights, size_t emitter,
-                             uint32_t seed)
+                             const VplId& id, uint32_t seed)
     : scene_(scene),
       lights_(lights),
       light_(lights.emitters()[emitter]),
       emitter_(static_cast<int>(emitter)),
-      seed_(seed) {
+      seed_(hash4(static_cast<uint32_t>(id.light), id.emitter, seed, kLightPointSet)) {
   if (light_.kind == EmitterKind::surface) {
     const RenderObject& o = scene.objects[light_.object];
     bounds_ = o.bounds;
@@ -52,7 +52,7 @@ void EmitterFactor::raysTo(std::span<const SurfaceSpot> spots, uint32_t leftOutB
                            std::vector<LightRay>& out) const {
   out.clear();
   if (!isSampled() || isLeftOut(leftOutBy, light_.link)) return;
-  const uint32_t scramble = hash4(key, static_cast<uint32_t>(emitter_), seed_, kLightPointSet);
+  const uint32_t scramble = hash4(key, 0, seed_, kLightPointSet);
   for (uint32_t i = 0; i < spots.size(); ++i) {
     const SurfaceSpot& spot = spots[i];
     LightRay ray;

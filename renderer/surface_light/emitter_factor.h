@@ -6,6 +6,7 @@
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/emitters/lights.h"
+#include "renderer/sampling/vpl_set.h"
 #include "renderer/surface_light/surface_mesh.h"
 #include "renderer/surface_light/visible_places.h"
 
@@ -20,7 +21,8 @@ struct LightRay {
 
 class EmitterFactor {
  public:
-  EmitterFactor(const RenderScene& scene, const LightSet& lights, size_t emitter, uint32_t seed);
+  EmitterFactor(const RenderScene& scene, const LightSet& lights, size_t emitter, const VplId& id,
+                uint32_t seed);
 
   // Whether its light has another colour in each place, so that it needs a factor per channel.
   bool isColoured() const;

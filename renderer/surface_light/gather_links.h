@@ -27,7 +27,8 @@ struct GatherLink {
   float metres() const;
 };
 
-// Directions around +Z with density cos θ/π. Neighbours in the list are near each other.
+// Directions around +Z with density cos θ/π. The first sixteenth and quarter of them are spread
+// like all; within each part, neighbours in the list are near each other.
 std::vector<vec3> gatherDirections(int count, uint32_t scramble);
 // Number of such sets. Neighbouring samples have different ones, so that their mean knows more.
 inline constexpr uint32_t kDirectionSets = 16;
@@ -35,30 +36,42 @@ inline constexpr uint32_t kDirectionSets = 16;
 // In world space; 0 where it would leave below the surface.
 vec3 gatherDirection(const SurfaceSpot& spot, const vec3& direction);
 
+// Rays are traced over several frames: first some of each sample, later all. What a moved object
+// may have changed is traced again, and keeps its old ends until then. When nothing is left, the
+// links are those of a fresh start.
 class GatherLinks {
  public:
   // Forgets all links. The mesh is that of the following calls.
   void restart(const SurfaceMesh& mesh, int rays, uint32_t seed);
+  // Other elements have the numbers of these objects now, or had them; links of the others stay.
+  void renew(const SurfaceMesh& mesh, std::span<const uint32_t> objects);
   bool isEmpty() const { return links_.empty(); }
 
-  // Traces all rays of these samples. Each is a function of the scene, the sample and the seed.
-  // Returns the number of rays.
+  // After objects moved: all rays of their samples, and those of other samples that touch one of
+  // the boxes, which contain the objects before and after, are out of date.
+  void outdate(const RenderScene& scene, const SurfaceMesh& mesh, const CutLeaves& cuts,
+               std::span<const uint32_t> movedObjects, std::span<const Bounds> boxes);
+  // Traces what is out of date and what is missing, up to about `most` rays, but at least the first
+  // rays of each sample. Returns the number of rays. `changed`: receives the samples, in ascending
+  // order.
   uint64_t trace(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
-                 const CutLeaves& cuts, std::span<const uint32_t> samples);
-  // After objects moved: traces again all rays of their samples, and those of other samples that
-  // touch one of the boxes, which contain the objects before and after. The links are then those of
-  // a fresh start. `changed`: receives the samples, in ascending order.
-  uint64_t retrace(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
-                   const CutLeaves& cuts, std::span<const uint32_t> movedObjects,
-                   std::span<const Bounds> boxes, std::vector<uint32_t>& changed);
+                 const CutLeaves& cuts, uint64_t most, std::vector<uint32_t>& changed);
+  // Whether nothing is out of date or missing.
+  bool isDone() const { return isCurrent() && stage_ == kStages; }
+  // Whether nothing is out of date.
+  bool isCurrent() const { return staleSamples_ == 0; }
+  // How many parts of the directions are known of all samples, at most kStages.
+  int stage() const { return stage_; }
+  static constexpr int kStages = 3;
 
   int rays() const { return static_cast<int>(rays_); }
+  // Those that are known.
   std::span<const GatherLink> of(uint32_t sample) const {
-    return std::span(links_).subspan(sample * rays_, rays_);
+    return std::span(links_).subspan(sample * rays_, known_[sample]);
   }
   // The directions of a sample, around +Z.
   std::span<const vec3> directionsOf(uint32_t sample) const {
-    return std::span(directions_).subspan(sets_[sample] * rays_, rays_);
+    return std::span(directions_).subspan(sets_[sample] * rays_, known_[sample]);
   }
   // Whether a sample lies inside of an object or behind a wall: several of its rays hit, within
   // this distance [m], back faces that no camera sees.
@@ -67,12 +80,25 @@ class GatherLinks {
   // part of it (Ward, Rubinstein and Clear, "A Ray Tracing Solution for Diffuse Interreflection",
   // 1988).
   float reachOf(uint32_t sample) const;
-  size_t bytes() const { return links_.size() * sizeof(GatherLink); }
+  size_t bytes() const {
+    return links_.size() * sizeof(GatherLink) + stale_.size() * sizeof(uint64_t);
+  }
 
  private:
-  size_t rays_ = 0;
-  std::vector<vec3> directions_;   // by set
-  std::vector<uint8_t> sets_;      // by sample
+  size_t raysOfStage(int stage) const;  // known ones when it is complete
+  std::span<uint64_t> staleOf(uint32_t sample) {
+    return std::span(stale_).subspan(sample * words_, words_);
+  }
+
+  size_t rays_ = 0, words_ = 0;
+  std::vector<vec3> directions_;       // by set
+  std::vector<uint8_t> sets_;          // by sample
+  std::vector<uint16_t> known_;        // by sample: how many of its links are known
+  std::vector<uint64_t> stale_;        // by sample: a bit for each known link that is out of date
+  std::vector<uint16_t> staleCounts_;  // by sample
+  size_t staleSamples_ = 0;            // that have any
+  int stage_ = 0;
+  uint32_t next_ = 0;              // the sample at which the next frame goes on
   std::vector<GatherLink> links_;  // by sample, then by ray
 };
 

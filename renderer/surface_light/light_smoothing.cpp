@@ -1,6 +1,7 @@
 #include "renderer/surface_light/light_smoothing.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -8,7 +9,8 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kPasses = 2;
+// Passes of averaging with all links, and for each stage of links that is missing.
+constexpr int kPasses = 2, kPassesMore = 2;
 // Neighbours count in full if what they see is this many times as far away as they are from each
 // other, and not at all from kNear times on.
 constexpr float kFar = 4.0f, kNear = 1.0f;
@@ -17,53 +19,57 @@ constexpr int kMostFills = 16;
 
 }  // namespace
 
-LightSmoothing::LightSmoothing(const RenderScene& scene, const SurfaceMesh& mesh,
-                               const GatherLinks& links) {
-  const size_t count = mesh.samples();
-  isBuried_.resize(count);
-  std::vector<float> reach(count);
-  std::vector<vec3> position(count);
-  tbb::parallel_for(size_t{0}, count, [&](size_t k) {
-    const auto sample = static_cast<uint32_t>(k);
-    isBuried_[k] = links.isBuried(sample, mesh.edge()) ? 1 : 0;
-    reach[k] = links.reachOf(sample);
-    position[k] =
-        spotAt(scene, mesh.objectOfSample(sample), mesh.placesOfSample(sample)[0]).position;
-  });
-  findNeighbours(mesh);
-  for (uint32_t s = 0; s < count; ++s) {
-    for (uint32_t i = starts_[s]; i < starts_[s + 1]; ++i) {
-      Neighbour& n = neighbours_[i];
-      const float distance = glm::distance(position[s], position[n.sample]);
-      const float ratio = std::min(reach[s], reach[n.sample]) / std::max(distance, 1e-6f);
-      n.weight = isBuried_[s] || isBuried_[n.sample]
-                     ? 0.0f
-                     : std::clamp((ratio - kNear) / (kFar - kNear), 0.0f, 1.0f);
-    }
-  }
-  orderBuried();
+LightSmoothing::Near LightSmoothing::nearOf(const SurfaceMesh& mesh, uint32_t sample) {
+  const SurfaceMesh::Part& part = mesh.part(mesh.objectOfSample(sample));
+  const uint32_t local = sample - part.firstSample;
+  const uint32_t first = part.shape->neighbourStarts[local];
+  const uint32_t last = part.shape->neighbourStarts[local + 1];
+  return {std::span(part.shape->neighbours).subspan(first, last - first), part.firstSample,
+          part.firstNeighbour + first};
 }
 
-void LightSmoothing::findNeighbours(const SurfaceMesh& mesh) {
-  std::vector<std::pair<uint32_t, uint32_t>> pairs;
-  for (uint32_t leaf = 0; leaf < mesh.leaves(); ++leaf) {
-    const auto samples = mesh.samplesOfLeaf(leaf);
-    for (const uint32_t a : samples)
-      for (const uint32_t b : samples)
-        if (a != b) pairs.emplace_back(a, b);
-  }
-  std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
-  starts_.assign(mesh.samples() + 1, 0);
-  for (const auto& [from, to] : pairs) {
-    ++starts_[from + 1];
-    neighbours_.push_back({to, 0.0f});
-  }
-  for (size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+void LightSmoothing::update(const RenderScene& scene, const SurfaceMesh& mesh,
+                            const GatherLinks& links, std::span<const uint32_t> changed,
+                            bool isNewMesh) {
+  const size_t count = mesh.samples();
+  if (isNewMesh) *this = {};
+  isBuried_.resize(count);
+  reach_.resize(count);
+  positions_.resize(count);
+  weights_.resize(mesh.neighbours());
+  tbb::parallel_for(size_t{0}, changed.size(), [&](size_t k) {
+    const uint32_t s = changed[k];
+    isBuried_[s] = links.isBuried(s, mesh.edge()) ? 1 : 0;
+    reach_[s] = links.reachOf(s);
+    positions_[s] = spotAt(scene, mesh.objectOfSample(s), mesh.placesOfSample(s)[0]).position;
+  });
+  passes_ = kPasses + kPassesMore * (GatherLinks::kStages - links.stage());
+  findWeights(mesh);
+  orderBuried(mesh);
+}
+
+void LightSmoothing::findWeights(const SurfaceMesh& mesh) {
+  tbb::parallel_for(size_t{0}, mesh.samples(), [&](size_t k) {
+    const auto s = static_cast<uint32_t>(k);
+    if (mesh.objectOfSample(s) == SurfaceMesh::kUnused) {
+      isBuried_[k] = 0;
+      return;
+    }
+    const Near near = nearOf(mesh, s);
+    for (size_t i = 0; i < near.samples.size(); ++i) {
+      const uint32_t other = near.firstSample + near.samples[i];
+      const float distance = glm::distance(positions_[s], positions_[other]);
+      const float ratio = std::min(reach_[s], reach_[other]) / std::max(distance, 1e-6f);
+      weights_[near.first + i] = isBuried_[s] || isBuried_[other]
+                                     ? 0.0f
+                                     : std::clamp((ratio - kNear) / (kFar - kNear), 0.0f, 1.0f);
+    }
+  });
 }
 
 // Each step fills those that have a neighbour with known light.
-void LightSmoothing::orderBuried() {
+void LightSmoothing::orderBuried(const SurfaceMesh& mesh) {
+  fills_.clear();
   std::vector<uint8_t> isUnknown = isBuried_;
   std::vector<uint32_t> left;
   for (uint32_t s = 0; s < isBuried_.size(); ++s)
@@ -72,43 +78,48 @@ void LightSmoothing::orderBuried() {
     std::vector<uint32_t> later;
     const size_t first = fills_.size();
     for (const uint32_t s : left) {
-      bool isKnown = false;
-      for (uint32_t i = starts_[s]; i < starts_[s + 1]; ++i)
-        isKnown = isKnown || isUnknown[neighbours_[i].sample] == 0;
+      const Near near = nearOf(mesh, s);
+      const bool isKnown = std::ranges::any_of(
+          near.samples, [&](uint32_t n) { return isUnknown[near.firstSample + n] == 0; });
       (isKnown ? fills_ : later).push_back(s);
     }
     if (fills_.size() == first) return;
     // The weights say from which neighbours each takes its light.
-    for (size_t k = first; k < fills_.size(); ++k)
-      for (uint32_t i = starts_[fills_[k]]; i < starts_[fills_[k] + 1]; ++i)
-        neighbours_[i].weight = isUnknown[neighbours_[i].sample] ? 0.0f : 1.0f;
+    for (size_t k = first; k < fills_.size(); ++k) {
+      const Near near = nearOf(mesh, fills_[k]);
+      for (size_t i = 0; i < near.samples.size(); ++i)
+        weights_[near.first + i] = isUnknown[near.firstSample + near.samples[i]] ? 0.0f : 1.0f;
+    }
     for (size_t k = first; k < fills_.size(); ++k) isUnknown[fills_[k]] = 0;
     left = std::move(later);
   }
 }
 
-void LightSmoothing::apply(std::vector<vec3>& values) const {
+void LightSmoothing::apply(const SurfaceMesh& mesh, std::vector<vec3>& values) const {
   const size_t count = isBuried_.size();
   std::vector<vec3> before(count);
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < passes_; ++pass) {
     std::copy_n(values.begin(), count, before.begin());
-    tbb::parallel_for(size_t{0}, count, [&](size_t s) {
-      if (isBuried_[s]) return;
-      vec3 sum = before[s];
+    tbb::parallel_for(size_t{0}, count, [&](size_t k) {
+      const auto s = static_cast<uint32_t>(k);
+      if (isBuried_[k] || mesh.objectOfSample(s) == SurfaceMesh::kUnused) return;
+      const Near near = nearOf(mesh, s);
+      vec3 sum = before[k];
       float weights = 1.0f;
-      for (uint32_t i = starts_[s]; i < starts_[s + 1]; ++i) {
-        sum += neighbours_[i].weight * before[neighbours_[i].sample];
-        weights += neighbours_[i].weight;
+      for (size_t i = 0; i < near.samples.size(); ++i) {
+        sum += weights_[near.first + i] * before[near.firstSample + near.samples[i]];
+        weights += weights_[near.first + i];
       }
-      values[s] = sum / weights;
+      values[k] = sum / weights;
     });
   }
   for (const uint32_t s : fills_) {
+    const Near near = nearOf(mesh, s);
     vec3 sum(0.0f);
     float weights = 0.0f;
-    for (uint32_t i = starts_[s]; i < starts_[s + 1]; ++i) {
-      sum += neighbours_[i].weight * values[neighbours_[i].sample];
-      weights += neighbours_[i].weight;
+    for (size_t i = 0; i < near.samples.size(); ++i) {
+      sum += weights_[near.first + i] * values[near.firstSample + near.samples[i]];
+      weights += weights_[near.first + i];
     }
     values[s] = sum / weights;
   }
@@ -116,6 +127,7 @@ void LightSmoothing::apply(std::vector<vec3>& values) const {
 
 void LightSmoothing::fillCorners(const SurfaceMesh& mesh, std::vector<vec3>& corners) const {
   tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
+    if (mesh.objectOfLeaf(static_cast<uint32_t>(k)) == SurfaceMesh::kUnused) return;
     const auto samples = mesh.samplesOfLeaf(static_cast<uint32_t>(k));
     vec3 sum(0.0f);
     float known = 0.0f;
@@ -131,8 +143,8 @@ void LightSmoothing::fillCorners(const SurfaceMesh& mesh, std::vector<vec3>& cor
 }
 
 size_t LightSmoothing::bytes() const {
-  return (starts_.size() + fills_.size()) * sizeof(uint32_t) +
-         neighbours_.size() * sizeof(Neighbour) + isBuried_.size();
+  return positions_.size() * sizeof(vec3) + (reach_.size() + weights_.size()) * sizeof(float) +
+         isBuried_.size() + fills_.size() * sizeof(uint32_t);
 }
 
 }  // namespace lamplighter

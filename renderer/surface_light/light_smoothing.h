@@ -13,27 +13,32 @@ namespace lamplighter {
 // kept. Buried samples get the mean of their neighbours that are not, from one to the next.
 class LightSmoothing {
  public:
-  LightSmoothing() = default;
-  LightSmoothing(const RenderScene& scene, const SurfaceMesh& mesh, const GatherLinks& links);
+  // After links of these samples changed. `isNewMesh`: all elements are other ones.
+  void update(const RenderScene& scene, const SurfaceMesh& mesh, const GatherLinks& links,
+              std::span<const uint32_t> changed, bool isNewMesh);
 
-  // `values`: by sample; more values may follow.
-  void apply(std::vector<vec3>& values) const;
+  // `values`: by sample; more values may follow. The fewer links are known, the more it averages.
+  void apply(const SurfaceMesh& mesh, std::vector<vec3>& values) const;
   // The same for values of the corners of elements, within each element.
   void fillCorners(const SurfaceMesh& mesh, std::vector<vec3>& corners) const;
   bool isBuried(uint32_t sample) const { return isBuried_[sample] != 0; }
   size_t bytes() const;
 
  private:
-  struct Neighbour {
-    uint32_t sample;
-    float weight;  // relative to that of the sample itself
+  // The neighbours of a sample, and the number of the first one in weights_.
+  struct Near {
+    std::span<const uint32_t> samples;  // within their object
+    uint32_t firstSample = 0, first = 0;
   };
-  void findNeighbours(const SurfaceMesh& mesh);
-  void orderBuried();
-  std::vector<uint32_t> starts_;  // by sample: its first neighbour
-  std::vector<Neighbour> neighbours_;
+  static Near nearOf(const SurfaceMesh& mesh, uint32_t sample);
+  void findWeights(const SurfaceMesh& mesh);
+  void orderBuried(const SurfaceMesh& mesh);
+  std::vector<vec3> positions_;    // by sample
+  std::vector<float> reach_;       // by sample [m]
+  std::vector<float> weights_;     // by neighbour: relative to that of the sample itself
   std::vector<uint8_t> isBuried_;  // by sample
   std::vector<uint32_t> fills_;    // buried samples, nearest to others first
+  int passes_ = 0;
 };
 
 }  // namespace lamplighter

@@ -13,6 +13,28 @@ namespace {
 // Cosine of 2.2°: the sky so near a sun counts as part of it (SkyMap::suns()).
 constexpr float kSunCosine = 0.99926f;
 
+// While anything changes, the light is gathered by this share of the rays if there are many.
+constexpr int kLiveShare = 4;
+constexpr size_t kManyLinks = size_t{1} << 22;
+
+// Where memory is short, samples have so many rays, and elements are larger only beyond that: in
+// levels of many samples the mean of neighbours is as smooth.
+constexpr int kFewRays = 64;
+
+size_t mostSamples(const SurfaceLightOptions& options) {
+  const auto rays = static_cast<size_t>(std::min(kFewRays, options.gatherRays));
+  return std::max<size_t>(options.linkBytes / (sizeof(GatherLink) * rays), 1);
+}
+
+// As many as fit into memory, in steps of two.
+int gatherRays(const SurfaceLightOptions& options, size_t samples) {
+  int rays = options.gatherRays;
+  while (rays > kFewRays &&
+         samples * sizeof(GatherLink) * static_cast<size_t>(rays) > options.linkBytes)
+    rays = std::max(kFewRays, rays / 2);
+  return rays;
+}
+
 // Radiance of the sky without its suns, which are lights of their own.
 vec3 skyWithoutSuns(const SkySampler& sky, const vec3& towards) {
   for (size_t i = 0; i < sky.sunCount(); ++i)
@@ -30,64 +52,103 @@ std::vector<Bounds> boxesOf(const RenderScene& scene, const RenderSceneChanges& 
 }  // namespace
 
 bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& changes,
-                          const RayCaster& rays, const SurfaceLightOptions& options) {
+                          const RayCaster& rays, const SurfaceLightOptions& options,
+                          uint64_t mostRays) {
   counts_.rays = counts_.samplesTraced = counts_.factorsFound = counts_.masks = 0;
-  const bool isFirst = links_.isEmpty();
-  if (!isFirst && changes.none() && options == options_) return false;
-  RenderSceneChanges all = changes;
-  if (isFirst || options.seed != options_.seed || options.gatherRays != options_.gatherRays)
-    all.rebuilt = true;
+  keptMesh_ = true;
+  const bool isSame = options == options_ && changes.none();
+  if (isSame && isDone_ && !links_.isEmpty()) return false;
+  const bool isFirst = links_.isEmpty() || changes.rebuilt || options.seed != options_.seed;
+  const bool isOtherwiseLit = !(options == options_);
   options_ = options;
   lights_ = LightSet(scene, lights_);
 
   // 1. The elements, and what their rays see.
-  const size_t perSample = sizeof(GatherLink) * static_cast<size_t>(options.gatherRays);
-  const size_t most = std::max<size_t>(options.linkBytes / perSample, 1);
-  const bool isNewMesh = mesh_.update(scene, all, {options.edge, most}) || all.rebuilt;
-  const std::vector<Bounds> boxes = boxesOf(scene, all);
-  std::vector<uint32_t> changed;
-  // Changed materials may have other holes, so that rays pass elsewhere.
-  const bool isNew = isNewMesh || all.materials;
-  counts_.rays += cuts_.update(scene, rays, mesh_, isNew, all.movedObjects, boxes);
+  const SurfaceMeshChange mesh = mesh_.update(scene, changes, {options.edge, mostSamples(options)});
+  const int raysOfSample = gatherRays(options, mesh_.usedSamples());
+  const bool isNew = mesh.isNew || isFirst || raysOfSample != links_.rays();
+  std::vector<uint32_t> moved = changes.movedObjects;
+  moved.insert(moved.end(), mesh.objects.begin(), mesh.objects.end());
+  std::vector<Bounds> boxes;
+  if (!isNew) boxes = boxesOf(scene, changes);
+  if (!isNew) boxes.insert(boxes.end(), mesh.boxes.begin(), mesh.boxes.end());
+  keptMesh_ = !isNew && moved.empty() && !changes.materials;
+  if (!isSame) counts_.rays += cuts_.update(scene, rays, mesh_, isNew, moved, boxes);
   if (isNew) {
-    links_.restart(mesh_, options.gatherRays, options.seed);
-    changed.resize(mesh_.samples());
-    std::iota(changed.begin(), changed.end(), 0u);
-    counts_.rays += links_.trace(scene, rays, mesh_, cuts_, changed);
-  } else if (!all.movedObjects.empty()) {
-    counts_.rays += links_.retrace(scene, rays, mesh_, cuts_, all.movedObjects, boxes, changed);
+    links_.restart(mesh_, raysOfSample, options.seed);
+  } else if (!moved.empty()) {
+    if (!mesh.objects.empty()) links_.renew(mesh_, mesh.objects);
+    links_.outdate(scene, mesh_, cuts_, moved, boxes);
   }
-  counts_.samplesTraced = changed.size();
+  const bool wasCurrent = links_.isCurrent() && direct_.isDone();
+  const int stage = links_.stage();
+  std::vector<uint32_t> traced;
+  const uint64_t gathered = links_.trace(scene, rays, mesh_, cuts_, mostRays, traced);
+  counts_.rays += gathered;
+  counts_.samplesTraced = traced.size();
+  findSky(scene, traced);
+  if (isNew) isUnsmoothed_.clear();
+  isUnsmoothed_.resize(mesh_.samples(), 0);
+  for (const uint32_t s : traced) isUnsmoothed_[s] = 1;
+  if (isNew || changes.materials || !mesh.objects.empty()) findAlbedo(scene);
+  const bool isLive = isNew || isOtherwiseLit || !changes.none();
+  if (isLive || links_.isDone() || links_.stage() != stage || !wasCurrent) smooth(scene, isNew);
 
   // 2. Their direct light.
-  if (isNew) findAlbedo(scene);
-  if (!changed.empty()) {
-    state_.smoothing = LightSmoothing(scene, mesh_, links_);
-    findMixed();
-  }
+  const uint64_t left = mostRays - std::min(mostRays, gathered);
   counts_.rays +=
       direct_.update({scene, rays, lights_, mesh_, state_.isMixed, options.seed, options.mask},
-                     isNew, all.movedObjects, boxes);
+                     isNew, moved, boxes, std::max(left, mostRays / 2));
   counts_.factorsFound = direct_.factors();
   counts_.masks = direct_.masked();
+
+  // 3. Bounces: not in each frame in which a picture at rest gets more rays.
+  const bool isCurrent = links_.isCurrent() && direct_.isDone();
+  const bool isReady = links_.isDone() && direct_.isDone();
+  isDone_ = false;
+  if (!isLive && !isReady && links_.stage() == stage && !(isCurrent && !wasCurrent)) return false;
+  const bool isLinear = changes.onlyGains() && !isNew;
+  const bool hasTime = mostRays == kAllRays || !isLive || isLinear ||
+                       mesh_.usedSamples() * static_cast<size_t>(links_.rays()) <= kManyLinks;
+  findLight(options.bounces,
+            hasTime ? links_.rays() : (links_.rays() + kLiveShare - 1) / kLiveShare);
+  isDone_ = isReady && hasTime;
+  counts_.samples = mesh_.usedSamples();
+  counts_.leaves = mesh_.usedLeaves();
+  counts_.edge = mesh_.edge();
+  counts_.bytes = mesh_.bytes() + links_.bytes() + direct_.bytes() + state_.smoothing.bytes();
+  return true;
+}
+
+// Takes what was traced since the last call.
+void SurfaceLight::smooth(const RenderScene& scene, bool isNewMesh) {
+  std::vector<uint32_t> changed;
+  for (uint32_t s = 0; s < isUnsmoothed_.size(); ++s)
+    if (isUnsmoothed_[s] && mesh_.objectOfSample(s) != SurfaceMesh::kUnused) changed.push_back(s);
+  std::ranges::fill(isUnsmoothed_, uint8_t{0});
+  if (!isNewMesh && changed.empty() && state_.isMixed.size() == mesh_.leaves()) return;
+  state_.smoothing.update(scene, mesh_, links_, changed, isNewMesh);
+  findMixed();
+}
+
+void SurfaceLight::findLight(int bounces, int most) {
   state_.direct.resize(3 * mesh_.leaves());
   direct_.sum(lights_, state_.direct);
   state_.smoothing.fillCorners(mesh_, state_.direct);
-  if (!changed.empty() || !(sky_ == scene.sky)) findSky(scene);
-
-  // 3. Bounces.
-  bounceLight(mesh_, links_, state_, options.bounces, bounced_);
-  counts_.samples = mesh_.samples();
-  counts_.leaves = mesh_.leaves();
-  counts_.edge = mesh_.edge();
-  counts_.bytes = mesh_.bytes() + links_.bytes() + direct_.bytes();
-  return true;
+  vec3 gain(0.0f);
+  for (const Emitter& e : lights_.emitters())
+    if (e.kind == EmitterKind::sky && e.skySun == 0) gain = e.gain;
+  state_.sky.resize(mesh_.samples());
+  for (size_t s = 0; s < state_.sky.size(); ++s) state_.sky[s] = gain * sky_[s];
+  if (gain != vec3(0.0f)) state_.smoothing.apply(mesh_, state_.sky);
+  bounceLight(mesh_, links_, state_, bounces, most, bounced_);
 }
 
 void SurfaceLight::findAlbedo(const RenderScene& scene) {
   state_.albedo.resize(mesh_.leaves());
   tbb::parallel_for(size_t{0}, mesh_.leaves(), [&](size_t k) {
     const auto leaf = static_cast<uint32_t>(k);
+    if (mesh_.objectOfLeaf(leaf) == SurfaceMesh::kUnused) return;
     const auto places = mesh_.placesOfLeaf(leaf);
     vec3 sum(0.0f);
     for (const SurfacePlace& p : places) sum += albedoAt(scene, mesh_.objectOfLeaf(leaf), p);
@@ -96,8 +157,9 @@ void SurfaceLight::findAlbedo(const RenderScene& scene) {
 }
 
 void SurfaceLight::findMixed() {
-  state_.isMixed.resize(mesh_.leaves());
+  state_.isMixed.assign(mesh_.leaves(), 0);
   for (uint32_t leaf = 0; leaf < mesh_.leaves(); ++leaf) {
+    if (mesh_.objectOfLeaf(leaf) == SurfaceMesh::kUnused) continue;
     const auto samples = mesh_.samplesOfLeaf(leaf);
     const auto buried =
         std::ranges::count_if(samples, [&](uint32_t s) { return state_.smoothing.isBuried(s); });
@@ -105,15 +167,23 @@ void SurfaceLight::findMixed() {
   }
 }
 
-// Rays that hit nothing see the sky.
-void SurfaceLight::findSky(const RenderScene& scene) {
-  sky_ = scene.sky;
-  state_.sky.assign(mesh_.samples(), vec3(0.0f));
-  const float share = kPi / static_cast<float>(links_.rays());
-  tbb::parallel_for(size_t{0}, mesh_.samples(), [&](size_t k) {
-    const auto sample = static_cast<uint32_t>(k);
+// What the rays of these samples that hit nothing see; of all samples if the sky is another one.
+void SurfaceLight::findSky(const RenderScene& scene, std::span<const uint32_t> samples) {
+  sky_.resize(mesh_.samples(), vec3(0.0f));
+  std::vector<uint32_t> all;
+  if (!(seenSky_ == lights_.referenceSky().sky())) {
+    seenSky_ = lights_.referenceSky().sky();
+    all.resize(mesh_.samples());
+    std::iota(all.begin(), all.end(), 0u);
+    samples = all;
+  }
+  tbb::parallel_for(size_t{0}, samples.size(), [&](size_t k) {
+    const uint32_t sample = samples[k];
     const uint32_t object = mesh_.objectOfSample(sample);
-    if (scene.sky.isBlack() || isLeftOut(scene.objects[object].leftOutBy, scene.skyLink)) return;
+    sky_[sample] = vec3(0.0f);
+    if (object == SurfaceMesh::kUnused || seenSky_.isBlack() ||
+        isLeftOut(scene.objects[object].leftOutBy, scene.skyLink))
+      return;
     const auto links = links_.of(sample);
     const auto directions = links_.directionsOf(sample);
     if (std::ranges::find(links, GatherLink::kSky, &GatherLink::leaf) == links.end()) return;
@@ -123,11 +193,10 @@ void SurfaceLight::findSky(const RenderScene& scene) {
     vec3 sum(0.0f);
     for (size_t i = 0; i < links.size(); ++i)
       if (links[i].leaf == GatherLink::kSky)
-        sum +=
-            skyWithoutSuns(lights_.sky(), gatherDirection(spots[i % spots.size()], directions[i]));
-    state_.sky[k] = share * sum;
+        sum += skyWithoutSuns(lights_.referenceSky(),
+                              gatherDirection(spots[i % spots.size()], directions[i]));
+    sky_[sample] = kPi / static_cast<float>(links.size()) * sum;
   });
-  state_.smoothing.apply(state_.sky);
 }
 
 }  // namespace lamplighter

@@ -3,7 +3,9 @@
 //
 // Elements of all surfaces (surface_mesh.h) get direct light from each emitter (direct_factors.h)
 // and exchange it along kept rays (gather_links.h, bounced_light.h). Edits of brightness trace no
-// ray; those of places trace again what they touch. The result has the bits of a fresh start.
+// ray; those of places and of structure trace again what they touch. Rays are traced over several
+// frames: the first one has light of few rays. When all are traced, the result has the bits of a
+// fresh start.
 #pragma once
 
 #include "renderer/surface_light/bounced_light.h"
@@ -13,9 +15,9 @@ namespace lamplighter {
 
 struct SurfaceLightOptions {
   int bounces = 2;
-  float edge = 0.25f;  // longest edge of an element where memory allows it [m]
-  int gatherRays = 256;
-  size_t linkBytes = size_t{256} << 20;
+  float edge = 0.25f;    // longest edge of an element where memory allows it [m]
+  int gatherRays = 256;  // of a sample; down to 64 if memory is short
+  size_t linkBytes = size_t{64} << 20;
   int mask = 0;  // DirectFactors::Scene
   uint32_t seed = 1;
   bool operator==(const SurfaceLightOptions&) const = default;
@@ -33,10 +35,15 @@ class SurfaceLight {
     float edge = 0.0f;  // longest edge [m]
   };
 
-  // Brings everything up to date. `changes`: since the last update. Returns whether the light may
-  // have changed.
+  static constexpr uint64_t kAllRays = ~uint64_t{0};
+  // Goes on. `changes`: since the last update. `mostRays`: about so many are traced. Returns
+  // whether the light may have changed.
   bool update(const RenderScene& scene, const RenderSceneChanges& changes, const RayCaster& rays,
-              const SurfaceLightOptions& options);
+              const SurfaceLightOptions& options, uint64_t mostRays = kAllRays);
+  // Whether it has the bits of a fresh start with all rays.
+  bool isDone() const { return isDone_; }
+  // Whether the last update left the elements and the links of pixels as they were.
+  bool keptMesh() const { return keptMesh_; }
   void forget() { *this = SurfaceLight(); }
 
   // Irradiance of bounced light by value of the mesh [W/m²]. SurfacePicture shows it.
@@ -49,8 +56,10 @@ class SurfaceLight {
 
  private:
   void findAlbedo(const RenderScene& scene);
+  void smooth(const RenderScene& scene, bool isNewMesh);
   void findMixed();
-  void findSky(const RenderScene& scene);
+  void findSky(const RenderScene& scene, std::span<const uint32_t> samples);
+  void findLight(int bounces, int most);
 
   SurfaceLightOptions options_;
   LightSet lights_;
@@ -60,7 +69,10 @@ class SurfaceLight {
   DirectFactors direct_;
   SurfaceState state_;
   std::vector<vec3> bounced_;  // by value
-  Sky sky_;                    // of state_.sky
+  std::vector<vec3> sky_;      // by sample: what rays see of the sky, at its reference brightness
+  Sky seenSky_;                // the sky of it
+  std::vector<uint8_t> isUnsmoothed_;  // by sample: traced since smoothing was found
+  bool isDone_ = false, keptMesh_ = false;
   Counts counts_;
 };
 

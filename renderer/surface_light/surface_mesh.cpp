@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
 #include "renderer/scene/surface.h"
+#include "renderer/surface_light/own_mesh.h"
 
 namespace lamplighter {
 namespace {
@@ -14,69 +17,164 @@ namespace {
 // Area lights reflect nothing.
 bool hasShape(const RenderScene& scene, uint32_t object) {
   const RenderObject& o = scene.objects[object];
-  return !o.isEmpty() && !o.isAreaLight && !scene.materials[static_cast<size_t>(o.material)].isClear();
+  return !o.isEmpty() && !o.isAreaLight &&
+         !scene.materials[static_cast<size_t>(o.material)].isClear();
 }
 
-bool wantsBacks(const RenderScene& scene, uint32_t object) {
-  return scene.materials[static_cast<size_t>(scene.objects[object].material)].doubleSided;
+// An object has no more than one in so many of the samples.
+constexpr size_t kLeastShares = 8;
+
+// The area [m²] and the longest side [m] of an object.
+std::pair<float, float> sizeOf(const RenderScene& scene, uint32_t object) {
+  const OwnMesh mesh(scene, object);
+  double area = 0.0;
+  for (uint32_t t = 0; t < mesh.triangles(); ++t) area += mesh.area(t);
+  const vec3 size = mesh.bounds().extent();
+  return {static_cast<float>(area), std::max({size.x, size.y, size.z})};
 }
 
 }  // namespace
 
-bool SurfaceMesh::update(const RenderScene& scene, const RenderSceneChanges& changes,
-                         const SurfaceMeshOptions& options) {
-  bool isSame = !changes.rebuilt && !changes.objects && options == options_ && parts_.size() == scene.objects.size();
-  for (const uint32_t o : changes.movedObjects)
-    isSame = isSame && keys_[o] == shapeOf(scene.objects[o]);
-  for (uint32_t o = 0; isSame && changes.materials && o < parts_.size(); ++o)
-    isSame =
-        hasShape(scene, o) == (parts_[o].shape != nullptr) && wantsBacks(scene, o) == hasBacks_[o];
-  if (isSame) return false;
-  options_ = options;
-  keys_.clear();
-  hasBacks_.clear();
-  for (uint32_t o = 0; o < scene.objects.size(); ++o) {
-    keys_.push_back(shapeOf(scene.objects[o]));
-    hasBacks_.push_back(wantsBacks(scene, o));
+SurfaceMesh::Identity SurfaceMesh::Identity::of(const RenderScene& scene, uint32_t object) {
+  Identity out;
+  out.hasShape = lamplighter::hasShape(scene, object);
+  const RenderObject& o = scene.objects[object];
+  if (o.isEmpty()) return out;
+  const Material& m = scene.materials[static_cast<size_t>(o.material)];
+  out.hasBacks = m.doubleSided;
+  out.key = shapeOf(o);
+  out.alpha = m.alphaMode;
+  if (m.alphaMode == AlphaMode::mask) {
+    out.cutoff = m.alphaCutoff;
+    out.opacity = m.baseColor.a;
+    out.texture = m.baseColorTexture;
   }
-  edge_ = options.edge;
-  while (!findShapes(scene, edge_)) edge_ *= std::sqrt(2.0f);
-  number();
-  return true;
+  return out;
+}
+
+SurfaceMeshChange SurfaceMesh::update(const RenderScene& scene, const RenderSceneChanges& changes,
+                                      const SurfaceMeshOptions& options) {
+  SurfaceMeshChange out;
+  if (changes.rebuilt) *this = {};
+  const bool isStill = changes.movedObjects.empty() && !changes.objects && !changes.materials;
+  if (options == options_ && !parts_.empty() && isStill) return out;
+  options_ = options;
+  identities_.resize(scene.objects.size());
+  known_.resize(scene.objects.size());
+  parts_.resize(scene.objects.size());
+  for (uint32_t o = 0; o < scene.objects.size(); ++o) {
+    Identity now = Identity::of(scene, o);
+    if (identities_[o] == now) continue;
+    if (!(identities_[o].key == now.key) || identities_[o].hasBacks != now.hasBacks) known_[o] = {};
+    if (identities_[o].hasShape == now.hasShape && now.hasShape)
+      out.boxes.push_back(scene.objects[o].bounds);
+    identities_[o] = std::move(now);
+    out.objects.push_back(o);
+  }
+
+  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(known_.size()), [&](uint32_t o) {
+    if (identities_[o].hasShape && known_[o].shapeLevel < 0)
+      std::tie(known_[o].area, known_[o].longest) = sizeOf(scene, o);
+  });
+  int level = 0;
+  while (!findShapes(scene, level)) ++level;
+  if (levelEdge(level) != edge_) {
+    edge_ = levelEdge(level);
+    out.isNew = true;
+    out.objects.clear();
+    out.boxes.clear();
+    parts_.assign(parts_.size(), {});
+    samples_ = leaves_ = blends_ = neighbours_ = {};
+    objectOfSample_.clear();
+    objectOfLeaf_.clear();
+    for (uint32_t o = 0; o < parts_.size(); ++o) out.objects.push_back(o);
+  }
+  for (const uint32_t o : out.objects) renumber(o);
+  usedSamples_ = usedLeaves_ = 0;
+  for (const Part& part : parts_) {
+    if (!part.shape) continue;
+    usedSamples_ += part.shape->samples.size();
+    usedLeaves_ += part.shape->leaves.size();
+  }
+  return out;
+}
+
+float SurfaceMesh::levelEdge(int level) const {
+  return options_.edge * std::exp2(0.5f * static_cast<float>(level));
+}
+
+// Lower bound of the samples of an object: no element is larger than an even triangle of that edge,
+// and there are about half as many samples as elements.
+double SurfaceMesh::leastSamples(uint32_t object, int level) const {
+  const double edge = shapeEdge(known_[object].longest, levelEdge(level));
+  return (identities_[object].hasBacks ? 2.0 : 1.0) * known_[object].area / (0.866 * edge * edge);
+}
+
+// Finds the shape of an object with edges of a level, or longer ones if it would have more than its
+// share of the samples: ground around a house must not take those of the house.
+void SurfaceMesh::findShape(const RenderScene& scene, uint32_t object, int level) {
+  Known& known = known_[object];
+  const auto most = std::max(options_.mostSamples / kLeastShares, size_t{1});
+  const auto isLast = [&] { return levelEdge(level) > known.longest; };
+  while (!isLast() && leastSamples(object, level) > static_cast<double>(most)) ++level;
+  for (;; ++level) {
+    const auto it = known.samples.find(level);
+    const bool isWanted = it == known.samples.end() || it->second <= most || isLast();
+    if (isWanted && known.shapeLevel != level) {
+      known.shape = std::make_shared<const SurfaceShape>(
+          findSurfaceShape(scene, object, {levelEdge(level), identities_[object].hasBacks}));
+      known.shapeLevel = level;
+      known.samples[level] = known.shape->samples.size();
+    }
+    if (isLast() || known.samples[level] <= most) return;
+  }
 }
 
 // Returns whether there are few enough samples. Edges longer than the scene are the last try,
 // because each object needs at least one sample.
-bool SurfaceMesh::findShapes(const RenderScene& scene, float edge) {
-  const bool isLast = edge > scene.bounds.radius();
+bool SurfaceMesh::findShapes(const RenderScene& scene, int level) {
+  const bool isLast = levelEdge(level) > scene.bounds.radius();
+  double least = 0.0;
+  for (uint32_t o = 0; o < known_.size(); ++o)
+    if (identities_[o].hasShape)
+      least += std::min(leastSamples(o, level),
+                        static_cast<double>(options_.mostSamples / kLeastShares));
+  if (!isLast && least > static_cast<double>(options_.mostSamples)) return false;
   std::atomic<size_t> samples = 0;
-  parts_.assign(scene.objects.size(), {});
   tbb::parallel_for(size_t{0}, parts_.size(), [&](size_t o) {
-    const auto object = static_cast<uint32_t>(o);
-    if (!hasShape(scene, object) || (!isLast && samples > options_.mostSamples)) return;
-    parts_[o].shape =
-        std::make_shared<const SurfaceShape>(findSurfaceShape(scene, object, {edge, hasBacks_[o]}));
-    samples += parts_[o].shape->samples.size();
+    if (!identities_[o].hasShape || (!isLast && samples > options_.mostSamples)) return;
+    findShape(scene, static_cast<uint32_t>(o), level);
+    samples += known_[o].shape->samples.size();
   });
   return isLast || samples <= options_.mostSamples;
 }
 
-void SurfaceMesh::number() {
-  objectOfSample_.clear();
-  objectOfLeaf_.clear();
-  blends_ = 0;
-  for (uint32_t o = 0; o < parts_.size(); ++o) {
-    Part& part = parts_[o];
-    part.firstSample = static_cast<uint32_t>(objectOfSample_.size());
-    part.firstLeaf = static_cast<uint32_t>(objectOfLeaf_.size());
-    part.firstBlend = static_cast<uint32_t>(blends_);
-    if (!part.shape) continue;
-    objectOfSample_.resize(objectOfSample_.size() + part.shape->samples.size(), o);
-    objectOfLeaf_.resize(objectOfLeaf_.size() + part.shape->leaves.size(), o);
-    blends_ += part.shape->blends.size();
+// Gives the elements of an object their numbers, or takes them away.
+void SurfaceMesh::renumber(uint32_t object) {
+  Part& part = parts_[object];
+  const auto shape = identities_[object].hasShape ? known_[object].shape : nullptr;
+  if (part.shape == shape) return;
+  const auto count = [](const auto& list) { return static_cast<uint32_t>(list.size()); };
+  if (part.shape) {
+    const SurfaceShape& old = *part.shape;
+    samples_.giveBack(part.firstSample, count(old.samples));
+    leaves_.giveBack(part.firstLeaf, count(old.leaves));
+    blends_.giveBack(part.firstBlend, count(old.blends));
+    neighbours_.giveBack(part.firstNeighbour, count(old.neighbours));
+    std::fill_n(objectOfSample_.begin() + part.firstSample, old.samples.size(), kUnused);
+    std::fill_n(objectOfLeaf_.begin() + part.firstLeaf, old.leaves.size(), kUnused);
   }
-  samples_ = objectOfSample_.size();
-  leaves_ = objectOfLeaf_.size();
+  part = {};
+  part.shape = shape;
+  if (!shape) return;
+  part.firstSample = samples_.take(count(shape->samples));
+  part.firstLeaf = leaves_.take(count(shape->leaves));
+  part.firstBlend = blends_.take(count(shape->blends));
+  part.firstNeighbour = neighbours_.take(count(shape->neighbours));
+  objectOfSample_.resize(samples_.end(), kUnused);
+  objectOfLeaf_.resize(leaves_.end(), kUnused);
+  std::fill_n(objectOfSample_.begin() + part.firstSample, shape->samples.size(), object);
+  std::fill_n(objectOfLeaf_.begin() + part.firstLeaf, shape->leaves.size(), object);
 }
 
 std::span<const SurfacePlace> SurfaceMesh::placesOfSample(uint32_t sample) const {
@@ -116,7 +214,7 @@ bool SurfaceMesh::find(const RenderScene& scene, uint32_t object, uint32_t trian
   const auto local = static_cast<uint32_t>(part.shape->samples.size());
   for (uint32_t& v : out.values)
     v = v < local ? part.firstSample + v
-                  : static_cast<uint32_t>(samples_) + part.firstBlend + (v - local);
+                  : static_cast<uint32_t>(samples()) + part.firstBlend + (v - local);
   out.leaf += part.firstLeaf;
   return true;
 }

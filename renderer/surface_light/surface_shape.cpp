@@ -1,6 +1,7 @@
 #include "renderer/surface_light/surface_shape.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/patches/topology.h"
 #include "renderer/surface_light/own_mesh.h"
@@ -105,14 +106,33 @@ class TreeBuilder {
   uint32_t triangle_ = 0;
 };
 
+void findNeighbours(SurfaceShape& shape) {
+  std::vector<std::pair<uint32_t, uint32_t>> pairs;
+  for (const SurfaceShape::Leaf& leaf : shape.leaves)
+    for (const uint32_t a : leaf.samples)
+      for (const uint32_t b : leaf.samples)
+        if (a != b) pairs.emplace_back(a, b);
+  std::ranges::sort(pairs);
+  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+  shape.neighbourStarts.assign(shape.samples.size() + 1, 0);
+  for (const auto& [from, to] : pairs) {
+    ++shape.neighbourStarts[from + 1];
+    shape.neighbours.push_back(to);
+  }
+  for (size_t i = 1; i < shape.neighbourStarts.size(); ++i)
+    shape.neighbourStarts[i] += shape.neighbourStarts[i - 1];
+}
+
 }  // namespace
 
 size_t SurfaceShape::bytes() const {
   return places.size() * sizeof(SurfacePlace) + samples.size() * sizeof(PlaceRange) +
          leaves.size() * sizeof(Leaf) + nodes.size() * sizeof(Node) +
          blends.size() * sizeof(Blend) + roots.size() * sizeof(int32_t) +
-         valueOfVertex.size() * sizeof(uint32_t);
+         (valueOfVertex.size() + neighbourStarts.size() + neighbours.size()) * sizeof(uint32_t);
 }
+
+float shapeEdge(float longest, float edge) { return std::max(edge, longest / kMostEdges); }
 
 SurfaceShape findSurfaceShape(const RenderScene& scene, uint32_t object,
                               const SurfaceShapeOptions& options) {
@@ -124,7 +144,7 @@ SurfaceShape findSurfaceShape(const RenderScene& scene, uint32_t object,
   const uint32_t sides = options.hasBacks ? 2 : 1;
   out.roots.resize(sides * out.triangles);
   const vec3 size = mesh.bounds().extent();
-  const float edge = std::max(options.edge, std::max({size.x, size.y, size.z}) / kMostEdges);
+  const float edge = shapeEdge(std::max({size.x, size.y, size.z}), options.edge);
   SampleKeys keys;
   TreeBuilder trees(mesh, edge, keys, out);
   std::vector<uint32_t> small;
@@ -137,6 +157,7 @@ SurfaceShape findSurfaceShape(const RenderScene& scene, uint32_t object,
     }
   }
   if (!small.empty()) addClusters(mesh, small, edge, keys, out);
+  findNeighbours(out);
   return out;
 }
 

@@ -63,6 +63,9 @@ struct SurfaceShape {
   // By vertex, then by vertex seen from the back: the value at it. Values are the samples, then the
   // blends. Only for vertices of triangles in clusters.
   std::vector<uint32_t> valueOfVertex;
+  // Samples that share an element with each sample, ascending: those of sample s begin at
+  // neighbours[neighbourStarts[s]].
+  std::vector<uint32_t> neighbourStarts, neighbours;
 
   size_t values() const { return samples.size() + blends.size(); }
   size_t bytes() const;
@@ -72,6 +75,10 @@ struct SurfaceShapeOptions {
   float edge = 0.25f;     // longest edge of an element [m]
   bool hasBacks = false;  // the light on back faces is kept, too
 };
+
+// Longest edge of the elements of an object whose longest side is given [m]: it has at most 128
+// edges.
+float shapeEdge(float longest, float edge);
 
 // The elements of an object's mesh in its own space: rotation and translation change nothing. Edges
 // are longer on objects of more than 128 edges.

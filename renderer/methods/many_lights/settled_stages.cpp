@@ -155,7 +155,7 @@ void ManyLights::addSample(const FrameInputs& in, const Options& options, StageT
   stages.end(kAntialiasingStage);
 }
 
-// Adds bounced light that is kept on surfaces. It is current in each frame.
+// Adds bounced light that is kept on surfaces.
 void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageTimer& stages,
                            GiOutput& out, ManyLightsStats& stats) {
   if (!options.useMeshes()) return meshes_.forget();
@@ -165,6 +165,8 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
                  {in.lightOnly, options.speculars, options.leastRoughness});
   const int samples = out.settled && options.antialias > 1 ? options.antialias : 1;
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
+  out.settled = out.settled && meshes_.isDone();
+  out.refined = out.refined && out.settled;
   stats.take(meshes_.counts());
   stats.raysTraced += meshes_.counts().rays;
   stages.end(kMeshesStage);

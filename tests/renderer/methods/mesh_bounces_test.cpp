@@ -121,14 +121,18 @@ TEST(MeshBounces, BouncedLightIsCurrentInTheFrameOfAnEdit) {
   test::settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   const Scene old = room.scene;
   room.scene.find(room.light)->local.translation += vec3(1.2f, 0.0f, 0.6f);
+  settings.set("antialias", 1);
   const auto shown = [&](FrameRenderer& by, const SceneChanges& changes) {
     FrameRenderer::Request request{room.scene, changes, room.view, kMethod, settings};
     request.part = LightPart::indirect;
     return by.render(request).radiance->pixels();
   };
   const Image now = shown(renderer, compare(old, room.scene));
+  // A fresh start gets there in several frames.
   FrameRenderer other(makeCpuBackend());
-  EXPECT_TRUE(test::sameBits(now, shown(other, SceneChanges::all())));
+  Image fresh = shown(other, SceneChanges::all());
+  for (int i = 0; i < 40; ++i) fresh = shown(other, {});
+  EXPECT_TRUE(test::sameBits(now, fresh));
 }
 
 }  // namespace

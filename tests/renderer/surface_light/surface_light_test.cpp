@@ -2,7 +2,7 @@
 #include "renderer/surface_light/surface_light.h"
 
 #include <cmath>
-#include <numeric>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -38,28 +38,46 @@ struct Lit {
   std::unique_ptr<RayCaster> rays;
   SurfaceLight light;
   SurfaceLightOptions options;
+  uint64_t mostRays;  // in each update
 
-  explicit Lit(const Scene& s, int bounces = 3, int mask = 0)
-      : edited(s), scene(test::renderSceneOf(s)) {
-    options = {bounces, 0.4f, 64};
+  explicit Lit(const Scene& s, int bounces = 3, int mask = 0,
+               uint64_t most = SurfaceLight::kAllRays, int gatherRays = 64)
+      : edited(s), scene(test::renderSceneOf(s)), mostRays(most) {
+    options = {bounces, 0.4f, gatherRays};
     options.mask = mask;
     rays = std::make_unique<RayCaster>(scene);
-    light.update(scene, test::everythingRebuilt(), *rays, options);
+    light.update(scene, test::everythingRebuilt(), *rays, options, mostRays);
   }
   void edit(const Scene& s) {
     const RenderSceneChanges found = update(scene, s, compare(edited, s));
     edited = s;
     rays->update(found);
-    light.update(scene, found, *rays, options);
+    light.update(scene, found, *rays, options, mostRays);
   }
+  void goOn() { light.update(scene, {}, *rays, options, mostRays); }
 };
 
+// The light of each object; after edits of structure objects and elements have other numbers.
+std::map<std::pair<NodeId, int>, std::vector<vec3>> lightByObject(const Lit& lit) {
+  std::map<std::pair<NodeId, int>, std::vector<vec3>> out;
+  const SurfaceMesh& mesh = lit.light.mesh();
+  for (uint32_t o = 0; o < mesh.objects(); ++o) {
+    const SurfaceMesh::Part& part = mesh.part(o);
+    if (!part.shape) continue;
+    const RenderObject& object = lit.scene.objects[o];
+    const vec3* values = lit.light.values().data();
+    const auto samples = static_cast<uint32_t>(part.shape->samples.size());
+    auto& light = out[{object.node, static_cast<int>(object.triangleCount())}];
+    EXPECT_TRUE(light.empty());
+    light.assign(values + part.firstSample, values + part.firstSample + samples);
+    const vec3* blends = values + mesh.samples() + part.firstBlend;
+    light.insert(light.end(), blends, blends + part.shape->blends.size());
+  }
+  return out;
+}
+
 void expectSameBits(const Lit& a, const Lit& b) {
-  ASSERT_EQ(a.light.values().size(), b.light.values().size());
-  size_t different = 0;
-  for (size_t i = 0; i < a.light.values().size(); ++i)
-    different += a.light.values()[i] != b.light.values()[i];
-  EXPECT_EQ(different, 0u);
+  EXPECT_TRUE(lightByObject(a) == lightByObject(b));
 }
 
 TEST(FormFactor, IsThatOfARectangleAboveAPoint) {
@@ -97,19 +115,18 @@ TEST(SurfaceLight, FurnaceHasTheLightOfAGeometricSeries) {
   cuts.update(render, rays, mesh, true, {}, {});
   GatherLinks links;
   links.restart(mesh, 256, 1);
-  std::vector<uint32_t> all(mesh.samples());
-  std::iota(all.begin(), all.end(), 0u);
-  links.trace(render, rays, mesh, cuts, all);
+  std::vector<uint32_t> changed;
+  links.trace(render, rays, mesh, cuts, SurfaceLight::kAllRays, changed);
   SurfaceState state;
   state.albedo.assign(mesh.leaves(), vec3(0.7f));
   state.direct.assign(3 * mesh.leaves(), vec3(1.0f));
   state.sky.assign(mesh.samples(), vec3(0.0f));
-  state.smoothing = LightSmoothing(render, mesh, links);
+  state.smoothing.update(render, mesh, links, changed, true);
   for (const int bounces : {1, 2, 5}) {
     double expected = 0.0;
     for (int k = 1; k <= bounces; ++k) expected += std::pow(0.7, k);
     std::vector<vec3> light;
-    bounceLight(mesh, links, state, bounces, light);
+    bounceLight(mesh, links, state, bounces, 256, light);
     for (const vec3& e : light) ASSERT_NEAR(e.g, expected, 1e-4 * expected);
   }
 }
@@ -125,7 +142,7 @@ TEST(SurfaceLight, DirectLightOfAnOpenRectangleIsItsClosedForm) {
   mesh.update(render, test::everythingRebuilt(), {});
   const std::vector<uint8_t> isMixed(mesh.leaves(), 0);
   DirectFactors factors;
-  factors.update({render, rays, lights, mesh, isMixed, 1, 0}, true, {}, {});
+  factors.update({render, rays, lights, mesh, isMixed, 1, 0}, true, {}, {}, SurfaceLight::kAllRays);
   std::vector<vec3> direct(3 * mesh.leaves());
   factors.sum(lights, direct);
   const std::vector<vec3> corners{
@@ -194,7 +211,9 @@ TEST(SurfaceLight, OpenLightsNeedNoRaysWithMasks) {
   mesh.update(render, test::everythingRebuilt(), {});
   const std::vector<uint8_t> isMixed(mesh.leaves(), 0);
   DirectFactors factors;
-  EXPECT_EQ(factors.update({render, rays, lights, mesh, isMixed, 1, 64}, true, {}, {}), 0u);
+  EXPECT_EQ(factors.update({render, rays, lights, mesh, isMixed, 1, 64}, true, {}, {},
+                           SurfaceLight::kAllRays),
+            0u);
   EXPECT_EQ(factors.masked(), 0u);
   EXPECT_GT(factors.open(), mesh.leaves());
 }
@@ -210,19 +229,77 @@ TEST(SurfaceLight, EditsWithMasksLeaveTheBitsOfAFreshStart) {
   }
 }
 
+// Whether edits leave the bits of a fresh start. `mostRays`: in each update; updates between edits
+// do not finish.
+bool endsAsAFreshStart(const test::EditSequence& edits, uint64_t mostRays) {
+  Room room;
+  Lit lit(room.scene, 2);
+  lit.mostRays = mostRays;
+  for (const test::Edit& edit : edits) {
+    test::apply(room.scene, edit);
+    lit.edit(room.scene);
+  }
+  while (!lit.light.isDone()) lit.goOn();
+  return lightByObject(lit) == lightByObject(Lit(room.scene, 2));
+}
+
 TEST(SurfaceLight, AnyEditsLeaveTheBitsOfAFreshStart) {
   for (const uint32_t seed : {1u, 2u, 3u}) {
-    const auto isSame = [](const test::EditSequence& edits) {
-      Room room;
-      Lit lit(room.scene, 2);
-      for (const test::Edit& edit : edits) {
-        test::apply(room.scene, edit);
-        lit.edit(room.scene);
-      }
-      return lit.light.values() == Lit(room.scene, 2).light.values();
-    };
-    EXPECT_EQ(test::shortestFailing(test::randomEdits(12, seed), isSame), test::EditSequence());
+    for (const uint64_t most : {SurfaceLight::kAllRays, uint64_t{3000}}) {
+      const auto isSame = [&](const test::EditSequence& e) { return endsAsAFreshStart(e, most); };
+      EXPECT_EQ(test::shortestFailing(test::randomEdits(12, seed), isSame), test::EditSequence());
+      EXPECT_EQ(test::shortestFailing(test::randomStructureEdits(8, seed), isSame),
+                test::EditSequence());
+    }
   }
+}
+
+TEST(SurfaceLight, RaysAreTracedOverSeveralFrames) {
+  const Room room;
+  const Lit whole(room.scene, 3, 0, SurfaceLight::kAllRays, 256);
+  Lit lit(room.scene, 3, 0, 12000, 256);
+  EXPECT_FALSE(lit.light.isDone());
+  // The first frame has the light of few rays.
+  const auto few = lightByObject(lit), all = lightByObject(whole);
+  double sum = 0.0, expected = 0.0;
+  for (const auto& [object, light] : all) {
+    ASSERT_EQ(few.at(object).size(), light.size());
+    for (const vec3& e : light) expected += e.g;
+    for (const vec3& e : few.at(object)) sum += e.g;
+  }
+  EXPECT_NEAR(sum / expected, 1.0, 0.1);
+  int frames = 1;
+  for (; !lit.light.isDone(); ++frames) {
+    lit.goOn();
+    // No element is left half way: the first rays of all are traced in the first frame.
+    EXPECT_LT(lit.light.counts().rays, 3 * 12000u);
+  }
+  EXPECT_GT(frames, 10);
+  expectSameBits(lit, whole);
+}
+
+TEST(SurfaceLight, StructureEditsTraceWhatTheyTouch) {
+  Room room;
+  Lit lit(room.scene);
+  const Lit first(room.scene);
+  const auto before = room.scene.nodes;
+  test::addMesh(room.scene, test::boxMesh(vec3(0.3f), 0), vec3(-1.2f, -1.2f, 1.5f));
+  lit.edit(room.scene);
+  EXPECT_LT(lit.light.counts().rays, first.light.counts().rays / 4);
+  expectSameBits(lit, Lit(room.scene));
+  room.scene.nodes = before;
+  lit.edit(room.scene);
+  EXPECT_LT(lit.light.counts().rays, first.light.counts().rays / 4);
+  expectSameBits(lit, first);
+}
+
+TEST(SurfaceLight, OtherMaterialsTraceNothing) {
+  Room room;
+  Lit lit(room.scene);
+  room.scene.materials[0].baseColor = vec4(0.2f, 0.7f, 0.3f, 1.0f);
+  lit.edit(room.scene);
+  EXPECT_EQ(lit.light.counts().rays, 0u);
+  expectSameBits(lit, Lit(room.scene));
 }
 
 TEST(SurfaceLight, DoesNotDependOnThreads) {
