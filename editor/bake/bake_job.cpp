@@ -37,8 +37,8 @@ uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobO
   add(kBakeVersion);
   add(std::bit_cast<uint32_t>(o.atlas.texelsPerMetre));
   add(static_cast<uint64_t>(o.atlas.pageSize));
-  add(o.light.reference);
-  if (o.light.reference) {
+  add(static_cast<uint64_t>(o.light.method));
+  if (o.light.method == BakeMethod::reference) {
     add(static_cast<uint64_t>(o.light.paths.bounces));
     add(o.light.paths.seed);
     add(static_cast<uint64_t>(o.light.samples));
@@ -48,6 +48,13 @@ uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobO
     add(static_cast<uint64_t>(o.light.counts.bounces));
     add(o.light.counts.seed);
     add(std::bit_cast<uint32_t>(o.light.clampDistance));
+  }
+  if (o.light.method == BakeMethod::meshes) {
+    const SurfaceLightOptions& s = o.light.surface;
+    for (const int number : {s.bounces, s.gatherRays, s.mask}) add(static_cast<uint64_t>(number));
+    add(std::bit_cast<uint32_t>(s.edge));
+    add(s.linkBytes);
+    add(s.seed);
   }
   return key;
 }

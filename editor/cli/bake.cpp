@@ -46,21 +46,29 @@ std::string timeText(double seconds) {
 
 BakeLightOptions lightOf(const BakeOptions& o) {
   const MethodInfo& method = findMethod(o.method);
-  const Settings settings = settingsOf(o, method);
+  Settings settings = settingsOf(o, method);
+  // Exact soft shadows, and fewer rays.
+  if (o.method == "multi_mesh" && !settings.values().contains("mask"))
+    settings.set("mask", std::string("32"));
   BakeLightOptions light;
-  light.reference = o.method == "reference";
-  if (light.reference) {
+  if (o.method == "reference") {
     const PathTracerParameters parameters = pathTracerParameters().read(settings);
+    light.method = BakeMethod::reference;
     light.paths.bounces = parameters.bounces;
     light.paths.seed = static_cast<uint32_t>(parameters.seed);
     light.samples = parameters.samplesPerPixel;
-  } else {
-    const ManyLightsParameters parameters = manyLightsParameters().read(settings);
-    light.counts.total = parameters.vpls;
-    light.counts.directShare = parameters.directShare;
-    light.counts.bounces = parameters.bounces;
-    light.counts.seed = static_cast<uint32_t>(parameters.seed);
-    light.clampDistance = parameters.clampDistance;
+    return light;
+  }
+  // Those of multi_mesh have the same names.
+  const ManyLightsParameters parameters = manyLightsParameters().read(settings);
+  light.counts.total = parameters.vpls;
+  light.counts.directShare = parameters.directShare;
+  light.counts.bounces = parameters.bounces;
+  light.counts.seed = static_cast<uint32_t>(parameters.seed);
+  light.clampDistance = parameters.clampDistance;
+  if (o.method == "multi_mesh") {
+    light.method = BakeMethod::meshes;
+    light.surface = parameters.surfaceLight(parameters.bounces, parameters.seed);
   }
   return light;
 }

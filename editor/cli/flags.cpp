@@ -201,8 +201,9 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->type_name("FOLDER")
       ->required();
   sub.add_option("--method", o->method,
-                 "many_lights: its settled light samples, with exact shadows; or the reference")
-      ->check(CLI::IsMember({"many_lights", "reference"}))
+                 "many_lights: its settled light samples, with exact shadows; multi_mesh: smooth "
+                 "bounced light from elements of surface; or the reference")
+      ->check(CLI::IsMember({"many_lights", "multi_mesh", "reference"}))
       ->capture_default_str();
   sub.add_option("--density", o->atlas.texelsPerMetre, "Texels a metre")
       ->type_name("X")

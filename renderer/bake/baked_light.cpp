@@ -1,12 +1,12 @@
 #include "renderer/bake/baked_light.h"
 
+#include <utility>
+
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
 #include "renderer/sampling/light_gains.h"
 #include "renderer/sampling/light_paths.h"
-#include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
-#include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
 namespace {
@@ -20,28 +20,38 @@ constexpr uint32_t kInsideSet = 0x7d;
 BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
                        const BakeLightOptions& options)
     : scene_(scene), rays_(rays), options_(options), lights_(scene) {
-  // Suns are not divided into tiles, because rays need no shadow maps.
-  if (!options.reference) {
+  if (options.method == BakeMethod::settled) {
+    // Suns are not divided into tiles, because rays need no shadow maps.
     vpls_ = LightPaths::generate(scene, rays, lights_, options.counts).vpls;
     applyGains(lights_, vpls_);
+  }
+  if (options.method == BakeMethod::meshes) {
+    direct_.emplace(
+        scene, rays, lights_,
+        DirectLight::Options{options.counts.total, options.surface.mask, options.counts.seed});
+    RenderSceneChanges changes;
+    changes.rebuilt = true;
+    // All rays in one call; another one where that finds samples inside of objects.
+    while (!surface_.isDone())
+      surface_.update(scene, std::exchange(changes, {}), rays, options.surface);
   }
 }
 
 vec3 BakedLight::irradiance(std::span<const BakePoint> points, uint32_t texel) const {
-  std::vector<ReceivingPlace> places;
+  std::vector<std::pair<const BakePoint*, ReceivingPlace>> places;
   for (const BakePoint& p : points) {
     const ReceivingPlace at = placeOf(p);
-    if (!isBuried(at, texel)) places.push_back(at);
+    if (!isBuried(at, texel)) places.emplace_back(&p, at);
   }
   if (places.empty()) return vec3(-1.0f);
   vec3 sum(0.0f);
-  if (!options_.reference) {
-    for (const ReceivingPlace& at : places) sum += ofSamples(at);
+  if (options_.method != BakeMethod::reference) {
+    for (const auto& [point, at] : places) sum += ofPlace(*point, at);
     return sum / static_cast<float>(places.size());
   }
   // Paths are distributed over the points in turn.
   for (uint32_t i = 0; i < static_cast<uint32_t>(options_.samples); ++i) {
-    sum += traceIrradiance(scene_, rays_, lights_, places[i % places.size()], texel, i,
+    sum += traceIrradiance(scene_, rays_, lights_, places[i % places.size()].second, texel, i,
                            options_.paths);
   }
   return sum / static_cast<float>(options_.samples);
@@ -74,23 +84,20 @@ bool BakedLight::isBuried(const ReceivingPlace& at, uint32_t texel) const {
   return inside > kInsideRays / 2;
 }
 
-vec3 BakedLight::ofSamples(const ReceivingPlace& at) const {
-  const vec3 from = at.position + rayEpsilon(at.position) * at.normal;
+vec3 BakedLight::ofPlace(const BakePoint& point, const ReceivingPlace& at) const {
+  if (options_.method == BakeMethod::settled)
+    return sampledLight(rays_, vpls_, at, options_.clampDistance).visible;
+  return direct_->irradiance(at) + bounced(point, at.position);
+}
+
+vec3 BakedLight::bounced(const BakePoint& point, const vec3& position) const {
+  MeshPoint on;
+  if (!surface_.mesh().find(scene_, point.object, point.triangle, false, {point.u, point.v}, on))
+    return vec3(0.0f);
+  surface_.cuts().keepVisible(scene_, rays_, surface_.mesh(), position, on.leaf, on.weights);
   vec3 sum(0.0f);
-  for (const SceneVpl& light : vpls_) {
-    const shared::Vpl& vpl = light.vpl;
-    const float geometry =
-        shared::vplGeometry(vpl, from, at.shadingNormal, at.normal, options_.clampDistance);
-    if (!(geometry > 0.0f) || isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y)))
-      continue;
-    Ray ray{from, 0.0f, vec3(vpl.normal)};
-    if (vpl.position.w != shared::kVplDirectional) {
-      const vec3 way = vec3(vpl.position) - from;
-      ray.tFar = glm::length(way);
-      ray.direction = way / ray.tFar;
-    }
-    if (!rays_.occluded(ray)) sum += geometry * vpl.intensity;
-  }
+  for (int k = 0; k < 3; ++k)
+    sum += on.weights[k] * surface_.values()[on.values[static_cast<size_t>(k)]];
   return sum;
 }
 

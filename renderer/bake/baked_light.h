@@ -1,28 +1,39 @@
-// Irradiance at surface points: from the settled VPLs with exact shadows, or from the path-traced
-// reference.
+// Irradiance at surface points: from the settled VPLs with exact shadows, from the path-traced
+// reference, or from light that is kept on surfaces.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "renderer/bake/bake_points.h"
+#include "renderer/bake/direct_light.h"
 #include "renderer/methods/path_tracer/path_tracer.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/vpl_set.h"
+#include "renderer/surface_light/surface_light.h"
 
 namespace lamplighter {
 
+// `meshes`: bounced light is interpolated between the corners of elements of surface, and direct
+// light is found at the point (DirectLight).
+enum class BakeMethod : uint8_t { settled, reference, meshes };
+
 struct BakeLightOptions {
-  bool reference = false;
-  VplCounts counts;            // settled
-  float clampDistance = 0.5f;  // settled: bound on 1/d² of a VPL [m]
-  PathTracerOptions paths;     // reference
-  int samples = 64;            // reference: paths per texel
+  BakeMethod method = BakeMethod::settled;
+  VplCounts counts;             // settled; meshes: the total, of direct light, and the seed
+  float clampDistance = 0.5f;   // settled: bound on 1/d² of a VPL [m]
+  PathTracerOptions paths;      // reference
+  int samples = 64;             // reference: paths per texel
+  SurfaceLightOptions surface;  // meshes
 };
 
 class BakedLight {
  public:
+  // Refers to scene and rays.
   BakedLight(const RenderScene& scene, const RayCaster& rays, const BakeLightOptions& options);
+  BakedLight(const BakedLight&) = delete;
+  BakedLight& operator=(const BakedLight&) = delete;
 
   // Mean irradiance [W/m²] over the points of one texel. Ignores the normal map, which is finer
   // than texels. Points inside other objects do not count. If all points are inside, the result is
@@ -33,13 +44,16 @@ class BakedLight {
  private:
   ReceivingPlace placeOf(const BakePoint& point) const;
   bool isBuried(const ReceivingPlace& at, uint32_t texel) const;
-  vec3 ofSamples(const ReceivingPlace& at) const;
+  vec3 ofPlace(const BakePoint& point, const ReceivingPlace& at) const;
+  vec3 bounced(const BakePoint& point, const vec3& position) const;
 
   const RenderScene& scene_;
   const RayCaster& rays_;
   BakeLightOptions options_;
   LightSet lights_;
-  std::vector<SceneVpl> vpls_;
+  std::vector<SceneVpl> vpls_;         // settled
+  std::optional<DirectLight> direct_;  // meshes
+  SurfaceLight surface_;               // meshes
 };
 
 }  // namespace lamplighter

@@ -39,6 +39,14 @@ TEST_F(BakeCommand, WritesPagesAndACopyAndShowsProgress) {
   EXPECT_EQ(runLamplighter({"info", (folder_ / "cornell_style.gltf").string()}).code, 0);
 }
 
+TEST_F(BakeCommand, BakesFromLightOnSurfaces) {
+  const ProcessResult r =
+      run({"--method", "multi_mesh", "--set", "coarse_edge=0.5", "--set", "gather_rays=16"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.err.find("warning"), std::string::npos) << r.err;
+  EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
+}
+
 TEST_F(BakeCommand, AShardWritesOnlyItsPart) {
   EXPECT_EQ(run({"--shard", "1/2"}).code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "cornell_style-light-0.exr"));

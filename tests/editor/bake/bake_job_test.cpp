@@ -106,6 +106,30 @@ TEST_F(BakeJob, ResumesAfterACancellation) {
   EXPECT_EQ(filesOf("whole"), filesOf("again"));
 }
 
+TEST_F(BakeJob, MergedShardsOfMeshesEqualTheWholeBakeBitForBit) {
+  const auto ofMeshes = [&](const std::string& name) {
+    BakeJobOptions o = options(name);
+    o.light.method = BakeMethod::meshes;
+    o.light.surface.mask = 32;
+    return o;
+  };
+  EXPECT_TRUE(bake(scene_, ofMeshes("whole"), {}).isWhole);
+  for (const int shard : {2, 1}) {
+    BakeJobOptions part = ofMeshes("parts");
+    part.shards = 2;
+    part.shard = shard;
+    bake(scene_, part, {});
+  }
+  EXPECT_EQ(bake(scene_, ofMeshes("parts"), {}).found, 0);
+  EXPECT_EQ(filesOf("whole"), filesOf("parts"));
+  // Other elements are another bake.
+  BakeJobOptions other = ofMeshes("parts");
+  other.light.surface.edge = 0.5f;
+  other.shards = 2;
+  other.shard = 1;
+  EXPECT_EQ(bake(scene_, other, {}).taken, 0);
+}
+
 TEST_F(BakeJob, TilesOfAnotherSceneAreNotReused) {
   bake(scene_, options("one"), [](int done, int) { return done < 3; });
   scene_.nodes[1].local.translation.x += 0.1f;
@@ -121,7 +145,7 @@ TEST_F(BakeJob, RefusesASceneWithoutSurfaces) {
 TEST_F(BakeJob, TheBakedSceneMatchesThePathTracer) {
   BakeJobOptions o = options("shown");
   o.atlas = {16.0f, 256};
-  o.light.reference = true;
+  o.light.method = BakeMethod::reference;
   o.light.paths.bounces = 2;
   o.light.samples = 64;
   const BakeReport report = bake(scene_, o, {});

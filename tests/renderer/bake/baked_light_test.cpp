@@ -1,4 +1,4 @@
-// Baked irradiance against closed forms, and many_lights against the path tracer.
+// Baked irradiance against closed forms, and the methods against the path tracer.
 #include "renderer/bake/baked_light.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ struct Baked {
 
 BakeLightOptions reference(int bounces) {
   BakeLightOptions o;
-  o.reference = true;
+  o.method = BakeMethod::reference;
   o.paths.bounces = bounces;
   o.samples = 1024;
   return o;
@@ -45,13 +45,22 @@ BakeLightOptions settled(int bounces, int vpls = 4096) {
   return o;
 }
 
+BakeLightOptions meshes(int bounces, int mask = 32) {
+  BakeLightOptions o;
+  o.method = BakeMethod::meshes;
+  o.counts.total = 1024;
+  o.surface.bounces = bounces;
+  o.surface.mask = mask;
+  return o;
+}
+
 // A point below the centre of a rectangle light: E = π L F.
 TEST(BakedLight, IsTheFormFactorUnderARectangle) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(0.5f))));
   test::addRectangleLight(scene, vec3(0, 1.5f, 0), vec2(1, 2), vec3(3, 2, 1));
   const Baked baked(scene);
-  const vec3 place(0.05f, 0, 0.05f);
+  const vec3 place(0.0625f, 0, 0.0625f);  // the middle of a texel
   const double factor = test::polygonFormFactor(
       place, vec3(0, 1, 0),
       {{-0.5f, 1.5f, -1}, {0.5f, 1.5f, -1}, {0.5f, 1.5f, 1}, {-0.5f, 1.5f, 1}});
@@ -59,6 +68,48 @@ TEST(BakedLight, IsTheFormFactorUnderARectangle) {
   EXPECT_NEAR(baked.at(place, reference(0)).r, expected, 0.02f * expected);
   EXPECT_NEAR(baked.at(place, settled(0)).r, expected, 0.02f * expected);
   EXPECT_NEAR(baked.at(place, settled(0)).b, expected / 3.0f, 0.01f * expected);
+  for (const int mask : {0, 32})
+    EXPECT_NEAR(baked.at(place, meshes(0, mask)).r, expected, 2e-3f * expected) << mask;
+}
+
+// Half of a square light is behind a wall that ends above the place.
+TEST(BakedLight, OfMeshesIsHalfBehindAHalfPlane) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(0.5f))));
+  test::addMesh(scene, test::boxMesh(vec3(2, 0.01f, 4), test::addMaterial(scene, vec3(0.0f))),
+                vec3(1.05f, 1, 0));
+  test::addRectangleLight(scene, vec3(0.05f, 2, 0.05f), vec2(1), vec3(3));
+  const Baked baked(scene);
+  const vec3 place(0.0625f, 0, 0.0625f);  // the middle of a texel
+  const double factor = test::polygonFormFactor(
+      place, vec3(0, 1, 0),
+      {{-0.45f, 2, -0.45f}, {0.0375f, 2, -0.45f}, {0.0375f, 2, 0.55f}, {-0.45f, 2, 0.55f}});
+  const float expected = kPi * 3.0f * std::abs(static_cast<float>(factor));
+  for (const int mask : {0, 64})
+    EXPECT_NEAR(baked.at(place, meshes(0, mask)).r, expected, 0.03f * expected) << mask;
+}
+
+// A light that nearly touches the surface fills its hemisphere.
+TEST(BakedLight, OfMeshesIsThatOfTheHemisphereUnderATouchingLight) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(0.5f))));
+  test::addRectangleLight(scene, vec3(0, 0.002f, 0), vec2(3), vec3(2));
+  const Baked baked(scene);
+  for (const int mask : {0, 32})
+    EXPECT_NEAR(baked.at(vec3(0.0625f, 0, 0.0625f), meshes(0, mask)).r, 2.0f * kPi, 0.02f) << mask;
+}
+
+// A point light near the surface: the law of the inverse square, without a clamp.
+TEST(BakedLight, OfMeshesFollowsTheInverseSquareNearAPointLight) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(0.5f))));
+  const NodeId id = test::addNode(scene, "lamp", kNoNode, vec3(0.0625f, 0.1f, 0.0625f));
+  scene.find(id)->punctual.emplace().intensity = vec3(2.0f);
+  const Baked baked(scene);
+  // The mean over the four points of the texel, 1/32 m from its middle along both axes.
+  const float d2 = 0.01f + 2.0f / (32.0f * 32.0f);
+  const float expected = 2.0f * 0.1f / (d2 * std::sqrt(d2));
+  EXPECT_NEAR(baked.at(vec3(0.0625f, 0, 0.0625f), meshes(0)).r, expected, 0.01f * expected);
 }
 
 TEST(BakedLight, OfAnEvenSkyIsPiTimesItsRadiance) {
@@ -68,6 +119,7 @@ TEST(BakedLight, OfAnEvenSkyIsPiTimesItsRadiance) {
   const Baked baked(scene);
   EXPECT_NEAR(baked.at(vec3(1, 0, 1), reference(2)).r, 2.0f * kPi, 0.05f);
   EXPECT_NEAR(baked.at(vec3(1, 0, 1), settled(2)).r, 2.0f * kPi, 0.15f);
+  EXPECT_NEAR(baked.at(vec3(1, 0, 1), meshes(2)).r, 2.0f * kPi, 0.15f);
 }
 
 // A furnace: a closed room of one albedo ρ that emits L everywhere has E = π L (1 + ρ + … + ρ^n)
@@ -83,10 +135,13 @@ TEST(BakedLight, CountsItsBounces) {
     const vec3 e = BakedLight(baked.render, rays, reference(bounces))
                        .irradiance(std::span(baked.points).subspan(200, 1), 3);
     EXPECT_NEAR(e.g, expected, 0.01f * expected) << bounces;
+    const vec3 smooth = BakedLight(baked.render, rays, meshes(bounces))
+                            .irradiance(std::span(baked.points).subspan(200, 1), 3);
+    EXPECT_NEAR(smooth.g, expected, 0.01f * expected) << bounces;
   }
 }
 
-TEST(BakedLight, BothMethodsAgreeInAShadowedRoom) {
+TEST(BakedLight, AllMethodsAgreeInAShadowedRoom) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(0.7f));
   test::addMesh(scene, test::squareMesh(4.0f, white));
@@ -99,6 +154,7 @@ TEST(BakedLight, BothMethodsAgreeInAShadowedRoom) {
   for (const vec3 place : {vec3(-1.0f, 0, 0.3f), vec3(1.2f, 0, 0.1f)}) {
     const float a = baked.at(place, reference(2)).g;
     EXPECT_NEAR(baked.at(place, settled(2, 8192)).g, a, 0.08f * a);
+    EXPECT_NEAR(baked.at(place, meshes(2)).g, a, 0.05f * a);
   }
 }
 
@@ -111,6 +167,7 @@ TEST(BakedLight, MarksTexelsInsideGeometryAsUnknown) {
   scene.sky = vec3(1.0f);
   const Baked baked(scene);
   EXPECT_LT(baked.at(vec3(0.1f, 0, 0.1f), settled(0, 64)).r, 0.0f);
+  EXPECT_LT(baked.at(vec3(0.1f, 0, 0.1f), meshes(0)).r, 0.0f);
   EXPECT_GT(baked.at(vec3(1.5f, 0, 0.1f), settled(0, 64)).r, 1.0f);
 }
 
