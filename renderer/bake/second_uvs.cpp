@@ -1,9 +1,9 @@
 #include "renderer/bake/second_uvs.h"
 
 #include <map>
-#include <set>
 #include <utility>
 
+#include "renderer/bake/node_meshes.h"
 #include "renderer/base/error.h"
 
 namespace lamplighter {
@@ -58,40 +58,29 @@ Scene withLightMapUvs(const Scene& scene, const RenderScene& render, const Light
   std::map<uint32_t, std::vector<const ObjectChart*>> byObject;
   for (const ObjectChart& c : atlas.charts) byObject[c.object].push_back(&c);
   Scene out = scene;
-  std::set<int> replaced;  // meshes of the scene that were already replaced
-  uint32_t object = 0;
-  for (Node& node : out.nodes) {
+  MeshReplacement replacement(out);
+  for (const NodeMesh& of : nodeMeshes(scene, render)) {
+    const Mesh& was = *scene.meshes[static_cast<size_t>(scene.nodes[of.node].mesh)];
     std::shared_ptr<Mesh> mesh;
     int page = 0;
-    size_t primitive = 0;
-    for (; object < render.objects.size() && render.objects[object].node == node.id; ++object) {
-      const RenderObject& o = render.objects[object];
-      if (o.isAreaLight) continue;
-      const Mesh& was = *scene.meshes[static_cast<size_t>(node.mesh)];
-      while (was.primitives[primitive].indices.empty()) ++primitive;
+    for (const auto& [primitive, object] : of.parts) {
       const auto charts = byObject.find(object);
-      if (charts != byObject.end()) {
-        const Primitive& p = was.primitives[primitive];
-        if (p.material != kNone && usesSecondUvs(scene.materials[static_cast<size_t>(p.material)]))
-          throw InputError(
-              "material \"" + scene.materials[static_cast<size_t>(p.material)].name + "\"",
-              "one of its textures uses the second UV set, which the light maps need",
-              "let the texture use the first UV set");
-        if (!mesh) mesh = std::make_shared<Mesh>(was);
-        page = charts->second.front()->page;
-        mesh->primitives[primitive] = withUvs(p, render, o, charts->second, atlas.pageSize);
-      }
-      ++primitive;
+      if (charts == byObject.end()) continue;
+      const Primitive& p = was.primitives[primitive];
+      if (p.material != kNone && usesSecondUvs(scene.materials[static_cast<size_t>(p.material)]))
+        throw InputError(
+            "material \"" + scene.materials[static_cast<size_t>(p.material)].name + "\"",
+            "one of its textures uses the second UV set, which the light maps need",
+            "let the texture use the first UV set");
+      if (!mesh) mesh = std::make_shared<Mesh>(was);
+      page = charts->second.front()->page;
+      mesh->primitives[primitive] =
+          withUvs(p, render, render.objects[object], charts->second, atlas.pageSize);
     }
     if (!mesh) continue;
     mesh->name +=
         (mesh->name.empty() ? "(light map " : " (light map ") + std::to_string(page) + ")";
-    if (replaced.insert(node.mesh).second) {
-      out.meshes[static_cast<size_t>(node.mesh)] = std::move(mesh);
-    } else {
-      node.mesh = static_cast<int>(out.meshes.size());
-      out.meshes.push_back(std::move(mesh));
-    }
+    replacement.replace(of.node, std::move(mesh));
   }
   return out;
 }
