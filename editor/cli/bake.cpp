@@ -1,10 +1,12 @@
-// Bakes light maps from the command line, on one machine or on several.
+// Bakes light maps or vertex colours from the command line, on one machine or on several.
 #include <charconv>
+#include <functional>
 #include <iostream>
 
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/bake/bake_job.h"
+#include "editor/bake/vertex_colour_job.h"
 #include "editor/cli/options.h"
 #include "editor/cli/progress_line.h"
 #include "editor/cli/subcommands.h"
@@ -73,42 +75,62 @@ BakeLightOptions lightOf(const BakeOptions& o) {
   return light;
 }
 
-}  // namespace
+// Shows how far the work is, and stops it by Ctrl+C. `parts`: what is counted.
+class ShownProgress {
+ public:
+  ShownProgress(const Frontend& frontend, std::string parts)
+      : frontend_(frontend),
+        parts_(std::move(parts)),
+        isInterrupted_(frontend.catchInterrupts()),
+        start_(frontend.stopwatch()) {}
 
-int bake(const BakeOptions& o, const Frontend& frontend) {
-  BakeJobOptions job;
-  job.atlas = o.atlas;
-  job.light = lightOf(o);
-  if (!o.shard.empty()) std::tie(job.shard, job.shards) = parseShard(o.shard);
-  job.mergeOnly = o.merge;
-  job.keepParts = o.keepParts;
-  job.output = o.output;
-  job.name = std::filesystem::path(o.scene).stem().string();
-  std::error_code ignored;
-  if (std::filesystem::equivalent(std::filesystem::path(o.scene).parent_path() / ".",
-                                  job.output / ".", ignored))
-    throw InputError(o.output, "is the folder of the scene itself, which the copy would replace",
-                     "name another folder");
-
-  const ThreadLimit limit(o.threads);
-  LoadedScene loaded = loadGltf(o.scene);
-  for (const std::string& w : loaded.warnings) std::cerr << "warning: " << w << '\n';
-  const auto isInterrupted = frontend.catchInterrupts();
-  ProgressLine line;
-  const double start = frontend.stopwatch();
-  int told = 0;
-  const BakeReport report = lamplighter::bake(loaded.scene, job, [&](int done, int all) {
-    const double seconds = frontend.stopwatch() - start;
-    const std::string text = fmt::format("bake: {} of {} tiles, {} left", done, all,
+  bool operator()(int done, int all) {
+    const double seconds = frontend_.stopwatch() - start_;
+    const std::string text = fmt::format("bake: {} of {} {}, {} left", done, all, parts_,
                                          timeText(seconds / done * (all - done)));
-    line.show(text);
-    if (!line.isTerminal() && done * kTenths / all > told) {
-      told = done * kTenths / all;
+    line_.show(text);
+    if (!line_.isTerminal() && done * kTenths / all > told_) {
+      told_ = done * kTenths / all;
       std::cerr << text << '\n';
     }
-    return !isInterrupted();
-  });
-  line.show("");
+    return !isInterrupted_();
+  }
+  void hide() { line_.show(""); }
+
+ private:
+  const Frontend& frontend_;
+  std::string parts_;
+  std::function<bool()> isInterrupted_;
+  double start_;
+  ProgressLine line_;
+  int told_ = 0;
+};
+
+int bakeVertexColours(const VertexColourOptions& job, const Scene& scene,
+                      const Frontend& frontend) {
+  ShownProgress progress(frontend, "nodes");
+  const std::optional<LitScene> lit = withVertexColours(scene, job, std::ref(progress));
+  progress.hide();
+  if (!lit) {
+    std::cerr << "bake: stopped; nothing was written\n";
+    return kCancelled;
+  }
+  if (lit->clipped > 0)
+    std::cerr << fmt::format(
+        "warning: {} vertices are brighter than 1 and were clipped; the "
+        "brightest colour is 1 with --exposure auto\n",
+        lit->clipped);
+  const auto files = writeLitScene(*lit, job);
+  std::cout << fmt::format("{} triangles of {} meshes, {} before; colours times {:.4g}\n",
+                           lit->triangles, lit->meshes, lit->trianglesBefore, lit->scale);
+  for (const auto& file : files) std::cout << file.string() << '\n';
+  return 0;
+}
+
+int bakeLightMaps(const BakeJobOptions& job, const Scene& scene, const Frontend& frontend) {
+  ShownProgress progress(frontend, "tiles");
+  const BakeReport report = lamplighter::bake(scene, job, std::ref(progress));
+  progress.hide();
   for (const std::string& w : report.warnings) std::cerr << "warning: " << w << '\n';
   if (report.isCancelled) {
     std::cerr << fmt::format("bake: stopped with {} of {} tiles found; the same command goes on\n",
@@ -119,6 +141,43 @@ int bake(const BakeOptions& o, const Frontend& frontend) {
                            report.pages, report.found, report.taken);
   for (const auto& file : report.files) std::cout << file.string() << '\n';
   return 0;
+}
+
+// Throws InputError if the folder cannot get these files.
+void requireFolder(const std::filesystem::path& folder, const std::vector<std::string>& files) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw InputError(folder.string(), "cannot be created (" + error.message() + ")",
+                     "check the permissions of its parent folder");
+  for (const std::string& file : files) requireWritable(folder / file, {});
+}
+
+}  // namespace
+
+int bake(const BakeOptions& o, const Frontend& frontend) {
+  BakeJobOptions maps;
+  maps.atlas = o.atlas;
+  maps.light = lightOf(o);
+  if (!o.shard.empty()) std::tie(maps.shard, maps.shards) = parseShard(o.shard);
+  maps.mergeOnly = o.merge;
+  maps.keepParts = o.keepParts;
+  maps.output = o.output;
+  maps.name = std::filesystem::path(o.scene).stem().string();
+  VertexColourOptions colours{maps.light, o.vertices, std::nullopt, maps.output, maps.name};
+  if (o.exposure != "auto") colours.exposure = exposureOf(o.exposure, Image());
+  std::error_code ignored;
+  if (std::filesystem::equivalent(std::filesystem::path(o.scene).parent_path() / ".",
+                                  maps.output / ".", ignored))
+    throw InputError(o.output, "is the folder of the scene itself, which the copy would replace",
+                     "name another folder");
+
+  const ThreadLimit limit(o.threads);
+  LoadedScene loaded = loadGltf(o.scene);
+  if (o.vertexColours) requireFolder(maps.output, {maps.name + ".gltf", maps.name + "-light.json"});
+  for (const std::string& w : loaded.warnings) std::cerr << "warning: " << w << '\n';
+  return o.vertexColours ? bakeVertexColours(colours, loaded.scene, frontend)
+                         : bakeLightMaps(maps, loaded.scene, frontend);
 }
 
 }  // namespace lamplighter::cli

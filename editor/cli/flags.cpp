@@ -220,6 +220,30 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_flag("--merge", o->merge, "Put the pages together from parts that are all there")
       ->excludes("--shard");
   sub.add_flag("--keep-parts", o->keepParts, "Leave the parts when the pages are there");
+  CLI::Option* colours = sub.add_flag(
+      "--vertex-colours", o->vertexColours,
+      "Instead of light maps: light in the vertex colours of the copy, whose triangles "
+      "are divided where light varies");
+  for (const char* ofMaps : {"--density", "--page", "--shard", "--merge", "--keep-parts"})
+    colours->excludes(ofMaps);
+  sub.add_option("--contrast", o->vertices.contrast,
+                 "Edges are divided where interpolated vertex colours are off by more than this "
+                 "share")
+      ->type_name("X")
+      ->check(CLI::Range(0.001, 10.0))
+      ->needs(colours)
+      ->capture_default_str();
+  sub.add_option("--shortest-edge", o->vertices.shortestEdge, "Shorter edges are not made (m)")
+      ->type_name("X")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->needs(colours)
+      ->capture_default_str();
+  sub.add_option("--exposure", o->exposure,
+                 "Vertex colours are irradiance / pi times 2^EV, at most 1; or auto: the brightest "
+                 "is 1")
+      ->type_name("EV|auto")
+      ->needs(colours)
+      ->capture_default_str();
   addThreads(sub, o->threads);
   sub.footer(
       "Ctrl+C stops; the same command goes on from there.\n"

@@ -8,6 +8,7 @@
 #include "editor/cli/cli.h"
 #include "editor/cli/options.h"
 #include "renderer/bake/atlas.h"
+#include "renderer/bake/vertex_light.h"
 
 namespace lamplighter::cli {
 
@@ -83,6 +84,9 @@ struct BakeOptions : MethodFlags {
   AtlasOptions atlas;
   std::string shard;  // "i/n", or empty
   bool merge = false, keepParts = false;
+  bool vertexColours = false;
+  VertexLightOptions vertices;    // of vertex colours
+  std::string exposure = "auto";  // EV or "auto"; of vertex colours
   int threads = 0;
 };
 int bake(const BakeOptions& options, const Frontend& frontend);

@@ -47,6 +47,36 @@ TEST_F(BakeCommand, BakesFromLightOnSurfaces) {
   EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
 }
 
+TEST_F(BakeCommand, WritesVertexColours) {
+  const std::vector<std::string> command{
+      "bake",     kScene,       "-o",    folder_.string(), "--vertex-colours",
+      "--method", "multi_mesh", "--set", "gather_rays=16", "--shortest-edge",
+      "1"};
+  const ProcessResult r = runLamplighter(command);
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(r.out.find("triangles"), std::string::npos) << r.out;
+  EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light.json"));
+  EXPECT_EQ(runLamplighter({"info", (folder_ / "cornell_style.gltf").string()}).code, 0);
+  for (const std::vector<std::string>& bad : {std::vector<std::string>{"--exposure", "bright"},
+                                              {"--contrast", "0"},
+                                              {"--shortest-edge", "-1"},
+                                              {"--shard", "1/2"},
+                                              {"--density", "4"}}) {
+    std::vector<std::string> all = command;
+    all.insert(all.end(), bad.begin(), bad.end());
+    const ProcessResult refused = runLamplighter(all);
+    EXPECT_EQ(refused.code, 2) << bad[0];
+    EXPECT_EQ(lines(refused.err), 1) << refused.err;
+  }
+  EXPECT_EQ(run({"--contrast", "0.1"}).code, 2) << "only of vertex colours";
+  // A file where the folder should be.
+  std::vector<std::string> blocked = command;
+  blocked[3] = (folder_ / "cornell_style.gltf" / "below").string();
+  const ProcessResult r2 = runLamplighter(blocked);
+  EXPECT_EQ(r2.code, 2);
+  EXPECT_EQ(lines(r2.err), 1) << r2.err;
+}
+
 TEST_F(BakeCommand, AShardWritesOnlyItsPart) {
   EXPECT_EQ(run({"--shard", "1/2"}).code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "cornell_style-light-0.exr"));
