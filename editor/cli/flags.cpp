@@ -279,6 +279,10 @@ void replayFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_option("--report", o->report, "JSON file for its checks and edit latencies")
       ->type_name("FILE");
   sub.add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");
+  sub.add_option("--set", o->assignments,
+                 "name=value of a parameter that the recording does not set; repeatable")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
   addBackend(sub, o->backend);
   addThreads(sub, o->threads);
   sub.footer("Example: lamplighter replay tests/recordings/place_light.jsonl --headless --check");

@@ -56,8 +56,8 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
                           uint64_t mostRays) {
   counts_.rays = counts_.samplesTraced = counts_.factorsFound = counts_.masks = 0;
   keptMesh_ = true;
-  const bool isSame = options == options_ && changes.none();
-  if (isSame && isDone_ && !links_.isEmpty()) return false;
+  const bool isSame = options == options_ && changes.none() && !links_.isEmpty();
+  if (isSame && isDone_) return false;
   const bool isFirst = links_.isEmpty() || changes.rebuilt || options.seed != options_.seed;
   const bool isOtherwiseLit = !(options == options_);
   options_ = options;

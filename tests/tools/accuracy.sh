@@ -28,12 +28,13 @@ echo "| method | scene | bounces | relRMSE | bias |"
 echo "| --- | --- | --- | --- | --- |"
 for vpls in 300 1024 4096; do
   for bounces in 0 1 5; do
-    row "many_lights, $vpls light samples" cornell $bounces --method many_lights --vpls "$vpls"
+    row "many_lights, $vpls light samples" cornell $bounces --set indirect=samples --vpls "$vpls"
+    row "many_lights, $vpls light samples, meshes" cornell $bounces --set indirect=meshes --vpls "$vpls"
   done
 done
 for vpls in 1024 4096 16384 65536; do
   for bounces in 0 1 5; do
-    row "many_lights, refined to $vpls light samples" cornell $bounces --method many_lights --set "refine=$vpls"
+    row "many_lights, refined to $vpls light samples" cornell $bounces --set indirect=samples --set "refine=$vpls"
   done
 done
 for spp in "$@"; do

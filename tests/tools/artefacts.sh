@@ -24,7 +24,7 @@ arguments_of() {
 render() {  # render NAME SCENE ARGUMENTS... : $work/NAME.exr
   local name=$1 scene=$2
   shift 2
-  "$program" render "$scene" -o "$work/$name.exr" --backend cpu "$@" >/dev/null 2>&1
+  "$program" render "$scene" -o "$work/$name.exr" --backend cpu --set indirect=samples "$@" >/dev/null 2>&1
 }
 
 # rows LABEL SCENE REFERENCE MASK SEEDS COUNTS ARGUMENTS... : relRMSE and relMSE as root mean square

@@ -25,7 +25,7 @@ edit() {  # edit SCENE OUT FILTER : a scene changed by a jq filter
   jq "$3" "$scenes/$1.gltf" > "$work/$2.gltf"
 }
 # 25 direct and 275 indirect light samples and five bounces, as in the paper.
-many=(--vpls 300 --bounces 5 --set direct_share=0.0834 --set map_resolution=128
+many=(--vpls 300 --bounces 5 --set indirect=samples --set direct_share=0.0834 --set map_resolution=128
   --set settled_map_scale=1 --set antialias=8)
 
 # 5-8: direct light only. Rows: shadow maps of 64², 128², 256² and 512²; columns: 25, 50, 100 light

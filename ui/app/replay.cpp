@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "editor/cli/options.h"
 #include "editor/document/write_file.h"
 #include "editor/input/player.h"
 #include "editor/latency/latency_report.h"
@@ -15,6 +16,7 @@
 #include "renderer/base/threads.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/image/image_io.h"
+#include "renderer/registry/registry.h"
 #include "ui/app/application.h"
 #include "ui/app/backends.h"
 #include "ui/app/replay_checks.h"
@@ -96,6 +98,8 @@ void Replay::start(Application& app) {
   session.home().writeFolder = writeFolder_.path();
   RenderSettings render = header().render;
   if (!options_.method.empty()) render.method = options_.method;
+  for (const std::string& a : options_.assignments)
+    cli::setFromAssignment(render.values, findMethod(render.method), a);
   session.editing().setInitialRender(std::move(render));
   keepJournal(session);
   for (int i = 0; i < 2; ++i) app.frame();  // these frames compute the sizes of the layout
@@ -167,6 +171,9 @@ std::string Replay::hashOf(const Session& session) const {
   // The method from the command line is not an edit of the recording.
   if (!options_.method.empty() && document.render.method == options_.method)
     document.render.method = header().render.method;
+  // Nor are values.
+  for (const std::string& a : options_.assignments)
+    document.render.values.reset(a.substr(0, a.find('=')));
   return hashText(documentHash(document));
 }
 

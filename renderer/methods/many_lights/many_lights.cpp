@@ -54,7 +54,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   waitsBefore_ = in.backend.counts().waits;
   uploadsBefore_ = kernels_->lightCounts().bytesUploaded;
   StageTimer stages(in, kManyLightsStages, stats);
-  Options options(in.settings, in.services.budget().refineUpdates > 0);
+  Options options(in.settings, in.services.budget().refineUpdates > 0,
+                  kernels_->traits().tracesShadowMaps);
   GiOutput out = renderSamples(in, options, stages, stats);
   addMeshes(in, options, stages, out, stats);
   out.stats = published(stats, manyLightsStatistics());

@@ -22,8 +22,11 @@ uint64_t limitOf(int parameter) {
 
 }  // namespace
 
-ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines)
+ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor)
     : ManyLightsParameters(manyLightsParameters().read(settings)) {
+  // Transfer takes the bounces within an object from those of light samples.
+  if (indirect == ManyLightsIndirect::automatic)
+    indirect = onProcessor && !prt ? ManyLightsIndirect::meshes : ManyLightsIndirect::samples;
   if (indirect == ManyLightsIndirect::meshes) {
     meshBounces = std::exchange(bounces, 0);
     directShare = 1.0f;

@@ -11,8 +11,8 @@ namespace lamplighter {
 // Read once per frame. Parameters without effect under the others have the value that switches them
 // off, so that two options differ only where the picture or the work does.
 struct ManyLightsOptions : ManyLightsParameters {
-  // `refines`: the caller has time for refinement.
-  ManyLightsOptions(const Settings& settings, bool refines);
+  // `refines`: the caller has time for refinement. `onProcessor`: the backend renders there.
+  ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor);
   ManyLightsOptions() = default;
 
   // Bounces of light that is kept on surfaces; 0: none is. `bounces` are those of light samples.

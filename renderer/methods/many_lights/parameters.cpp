@@ -46,8 +46,11 @@ const ParameterTable<P>& manyLightsParameters() {
        "Bounced light",
        "",
        "samples: light samples carry it. meshes: it is kept on the surfaces, smooth and current in "
-       "each frame, and all light samples are placed on the lights.",
-       {{"samples", ManyLightsIndirect::samples}, {"meshes", ManyLightsIndirect::meshes}},
+       "each frame, and all light samples are placed on the lights. automatic: meshes on the cpu "
+       "backend, samples on gl and with prt.",
+       {{"automatic", ManyLightsIndirect::automatic},
+        {"samples", ManyLightsIndirect::samples},
+        {"meshes", ManyLightsIndirect::meshes}},
        lightSamples},
       surfaceLightParameters(),
       {&P::importance,

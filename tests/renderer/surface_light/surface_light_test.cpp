@@ -293,6 +293,17 @@ TEST(SurfaceLight, StructureEditsTraceWhatTheyTouch) {
   expectSameBits(lit, first);
 }
 
+TEST(SurfaceLight, MayStartInASceneThatDoesNotChange) {
+  const Room room;
+  const RenderScene scene = test::renderSceneOf(room.scene);
+  const RayCaster rays(scene);
+  SurfaceLight a, b;
+  a.update(scene, {}, rays, {});
+  b.update(scene, test::everythingRebuilt(), rays, {});
+  EXPECT_TRUE(a.isDone());
+  EXPECT_TRUE(a.values() == b.values());
+}
+
 TEST(SurfaceLight, OtherMaterialsTraceNothing) {
   Room room;
   Lit lit(room.scene);

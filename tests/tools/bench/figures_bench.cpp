@@ -43,6 +43,7 @@ class Moving {
     settings_.set("vpls", vpls);
     settings_.set("updates", updates);
     settings_.set("bounces", 1);
+    settings_.set("indirect", std::string("samples"));  // as in the paper
     settings_.set("antialias", 1);
   }
 

@@ -31,6 +31,7 @@ RenderSettings settingsOf(int vpls) {
   render.values.set("frame_time", 0.0f);
   render.values.set("refine", 0);
   render.values.set("bounces", 5);
+  render.values.set("indirect", std::string("samples"));
   // There is one lamp. It needs few direct samples; most samples are bounces.
   render.values.set("direct_share", 0.15f);
   render.values.set("importance", 2);

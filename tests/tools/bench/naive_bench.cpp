@@ -37,6 +37,7 @@ Settings settingsOf(int vpls, int updates) {
   settings.set("vpls", vpls);
   settings.set("updates", updates);
   settings.set("bounces", 1);
+  settings.set("indirect", std::string("samples"));  // as in the paper
   settings.set("antialias", 1);
   settings.set("technique", std::string("naive"));
   return settings;

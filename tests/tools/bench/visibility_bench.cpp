@@ -204,6 +204,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
   settings.set("vpls", c.vpls);
   settings.set("updates", c.vpls);
   settings.set("bounces", 1);
+  settings.set("indirect", std::string("samples"));  // as in the paper
   settings.set("antialias", 1);
   const size_t plus = technique.find("+block");
   settings.set("technique", technique.substr(0, plus));

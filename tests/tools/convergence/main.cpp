@@ -122,6 +122,7 @@ Image manyLights(const Scene& scene, const View& view, const std::string& techni
   s.set("vpls", vpls);
   s.set("updates", 65536);
   s.set("antialias", kAntialias);
+  s.set("indirect", std::string("samples"));
   if (clampDistance) s.set("clamp_distance", *clampDistance);
   return settled(scene, view, "many_lights", s);
 }

@@ -95,6 +95,7 @@ Settings naiveSettings(int resolution, int vpls) {
   s.set("vpls", vpls);
   s.set("updates", 65536);
   s.set("antialias", 1);
+  s.set("indirect", std::string("samples"));
   s.set("share_memory", 0);  // shares are summed without light maps, whatever the technique
   // Both would compute it with rays. It would only increase the mean and so decrease the relative
   // errors.
