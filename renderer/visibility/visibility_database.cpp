@@ -58,6 +58,7 @@ void VisibilityDatabase::findTopologies(const RenderScene& scene, std::span<cons
 }
 
 void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) {
+  const bool isNew = patches_[object].bounds.empty();
   if (scene.objects[object].isEmpty()) {
     patches_[object] = ObjectPatches();
     patches_[object].revision.advance();
@@ -68,10 +69,12 @@ void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) 
   rows_[object].assign(patches, Row());
   divided_[object].assign(patches, 0);
   changed_[object].assign(patches, 1);
-  // Roots that had entries get new ones, if these are the same roots. ask() sees to the others.
-  if (given_[object].size() != patches) given_[object].assign(patches, 0);
+  // Roots that had entries get new ones, if these are the same roots. ask() sees to the others. A
+  // new object waits for answer(): the division of its patches is not known before their entries.
+  if (isNew || given_[object].size() != patches) given_[object].assign(patches, 0);
+  const bool givesAll = demand_.isForAll && !(isNew && wasAsked_);
   for (const int root : patches_[object].roots) {
-    if (demand_.isForAll) given_[object][static_cast<size_t>(root)] = PatchDemand::kAllLevels;
+    if (givesAll) given_[object][static_cast<size_t>(root)] = PatchDemand::kAllLevels;
     if (levelsGiven(object, root) > 0) giveRow(object, root);
   }
 }

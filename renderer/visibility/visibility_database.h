@@ -219,6 +219,7 @@ class VisibilityDatabase {
   Flags given_;
   PatchDemand demand_;
   std::vector<size_t> askedAtLevels_{0};  // by tree level: the most patches that demand_ asks for
+  bool wasAsked_ = false;                 // ask() was called
   size_t unanswered_ = 0;
   // Entries of patches without entries of their own, by LightLinks bits of the object.
   std::vector<uint8_t> partialEntries_;

@@ -57,6 +57,7 @@ void VisibilityDatabase::dropRoot(uint32_t object, int root) {
 
 void VisibilityDatabase::ask(const PatchDemand& demand) {
   demand_ = demand;
+  wasAsked_ = true;
   unanswered_ = 0;
   askedAtLevels_.assign(1, 0);
   for (uint32_t object = 0; object < patches_.size(); ++object) {

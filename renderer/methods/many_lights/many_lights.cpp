@@ -286,7 +286,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyL
       (options.speculars && kernels_->traits().specularsTakeAllMaps && hasGlossy(in.scene));
   if (needsAll)
     lights_.needMaps(std::vector<uint8_t>(slots, 1));
-  else if (lights_.changed() || in.changes.surfaces() || in.view != view_ ||
+  else if (lights_.changed() || patchesChanged_ || in.changes.surfaces() || in.view != view_ ||
            options.useVisibility() != options_.useVisibility() ||
            options.speculars != options_.speculars)
     lights_.needMaps(shadowMapDemand(*visibility_, in.scene, in.view));

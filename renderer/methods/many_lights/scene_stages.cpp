@@ -36,7 +36,8 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
   visibility_->setScene(in.scene, changes);
 }
 
-// While the camera or an object moves, patches that had entries keep them.
+// While the camera or an object moves, patches that had entries keep them, except if all had some:
+// these were few, and a large object has come.
 void ManyLights::askForPatches(const FrameInputs& in, const Options& options) {
   const bool isMoving = in.changes.surfaces() || (started_ && in.view != view_);
   if (!isMoving && demandIsCurrent_) return;
@@ -45,7 +46,7 @@ void ManyLights::askForPatches(const FrameInputs& in, const Options& options) {
   PatchDemand demand =
       findPatchDemand(visibility_->patches(), in.services.rays(), in.view, mostRows);
   demandIsCurrent_ = !isMoving || !started_ || demand.isForAll;
-  if (!demandIsCurrent_) demand.add(demand_);
+  if (!demandIsCurrent_ && !demand_.isForAll) demand.add(demand_);
   if (demand == demand_ && !in.changes.surfaces()) return;
   demand_ = std::move(demand);
   visibility_->ask(demand_);

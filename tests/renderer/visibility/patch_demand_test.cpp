@@ -154,6 +154,58 @@ TEST(AskedPatches, AreComputedWithinTheLimitOfTests) {
   EXPECT_GT(calls, 1u);
 }
 
+// An object that is shown again has no entries until answer(). Lights that come or go meanwhile do
+// not divide its patches, whose entries are not known yet.
+TEST(AskedPatches, OfANewObjectWaitForAnAnswer) {
+  Level level(40);
+  std::vector<shared::Vpl> lights = test::randomVpls(50, 7);
+  const auto ask = [&] { level.database.ask(level.demandOf(viewOf(0))); };
+  const auto showFloor = [&](bool shown) {
+    const Scene before = level.scene;
+    level.scene.nodes[0].visible = shown;
+    const RenderSceneChanges changes =
+        update(level.render, level.scene, compare(before, level.scene));
+    level.rays->update(changes);
+    level.database.setScene(level.render, changes);
+  };
+  ask();
+  level.database.setLights(level.render, lights);
+  showFloor(false);
+  ask();
+  level.database.setLights(level.render, lights);
+  level.database.refreshAll(level.render);
+  level.database.answer(level.render, kNoLimit);
+
+  showFloor(true);
+  ask();
+  const size_t roots = level.database.patches(0).roots.size();
+  ASSERT_GT(roots, 0u);
+  EXPECT_EQ(level.database.unanswered(), roots);
+  const size_t rows = level.database.counts().rows;
+  const uint64_t tests = level.database.tests();
+  lights.back().normal = vec4(0.0f);
+  level.database.setLights(level.render, lights);
+  for (const int root : level.database.patches(0).roots)
+    EXPECT_EQ(level.database.levels(0)[static_cast<size_t>(root)], 0);
+  EXPECT_LE(level.database.counts().rows, rows);
+  EXPECT_EQ(level.database.tests(), tests);
+
+  level.database.refreshAll(level.render);
+  level.database.answer(level.render, kNoLimit);
+  VisibilityDatabase fresh;
+  fresh.setScene(level.render, test::everythingRebuilt());
+  fresh.setLights(level.render, lights);
+  ASSERT_EQ(level.database.counts().rows, fresh.counts().rows);
+  // The slot of the light that is gone keeps its entries.
+  const size_t present = lights.size() - 1;
+  for (uint32_t object = 0; object < fresh.objects(); ++object) {
+    for (int patch = 0; patch < static_cast<int>(fresh.patches(object).patches.size()); ++patch) {
+      EXPECT_TRUE(std::ranges::equal(fresh.row(object, patch).first(present),
+                                     level.database.row(object, patch).first(present)));
+    }
+  }
+}
+
 // Edits, movements of the camera, and answers that stop early, in any order, leave the entries of a
 // new database.
 bool equalsFresh(const test::EditSequence& edits) {
