@@ -1,10 +1,11 @@
 // Edits in real levels, seen from inside, at defaults with the budgets of the editor's window:
 // opening, changes of brightness, a lamp that is added, moved and deleted, an object that is
-// hidden, and a flight. The levels are those of ../shared/scenes; without that folder there are
-// none.
+// hidden, objects that are duplicated, and a flight. The levels are those of ../shared/scenes;
+// without that folder there are none.
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 
 #include <benchmark/benchmark.h>
@@ -12,7 +13,9 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/data_folder.h"
+#include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "renderer/scene/units.h"
 #include "tests/tools/bench/window_frames.h"
 
 namespace lamplighter {
@@ -75,6 +78,35 @@ struct Opened {
     return lamp.id;
   }
 };
+
+// The node of the mesh that covers most of the picture, by a grid of eye rays.
+NodeId largestInView(const Opened& opened) {
+  constexpr int kPixelsARay = 16;
+  RenderScene render;
+  update(render, opened.scene, SceneChanges::all());
+  const RayCaster rays(render);
+  const View view = inUnits(opened.view, render.unit);
+  std::map<NodeId, int> counts;
+  for (int y = kPixelsARay / 2; y < view.height; y += kPixelsARay) {
+    for (int x = kPixelsARay / 2; x < view.width; x += kPixelsARay) {
+      const vec3 way = view.rayDirection(static_cast<float>(x), static_cast<float>(y));
+      if (const Hit hit = rays.intersect({view.eye, 0.0f, way}, Surfaces::seen))
+        ++counts[render.objects[hit.object].node];
+    }
+  }
+  const auto most = std::ranges::max_element(counts, {}, [](const auto& c) { return c.second; });
+  return most == counts.end() ? kNoNode : most->first;
+}
+
+// As the editor does: a copy of the node at the same position, with the next free id.
+void duplicate(Scene& scene, NodeId id) {
+  const auto node = std::ranges::find(scene.nodes, id, &Node::id);
+  if (node == scene.nodes.end()) return;
+  Node copy = *node;
+  for (const Node& n : scene.nodes) copy.id = std::max(copy.id, n.id + 1);
+  copy.name += " copy";
+  scene.nodes.push_back(std::move(copy));
+}
 
 // An edit, done and undone in turns.
 using Edit = std::function<void(Scene&, bool isDone)>;
@@ -213,6 +245,25 @@ void add(const Level& level) {
       const auto mesh = std::find_if(scene.nodes.rbegin(), scene.nodes.rend(),
                                      [](const Node& n) { return n.mesh != kNone; });
       if (mesh != scene.nodes.rend()) mesh->visible = isDone;
+    });
+  })->Iterations(2);
+  registered("lamp_duplicated", [&level](benchmark::State& s) {
+    measure(s, level, true, [](Scene& scene, bool isDone) {
+      if (isDone) {
+        scene.nodes.pop_back();
+      } else {
+        duplicate(scene, scene.nodes.back().id);
+      }
+    });
+  })->Iterations(2);
+  registered("object_duplicated", [&level](benchmark::State& s) {
+    const NodeId largest = largestInView(Opened(level, kWidth, kHeight));
+    measure(s, level, false, [largest](Scene& scene, bool isDone) {
+      if (isDone) {
+        scene.nodes.pop_back();
+      } else {
+        duplicate(scene, largest);
+      }
     });
   })->Iterations(2);
   registered("flight", [&level](benchmark::State& s) { fly(s, level); })->Iterations(60);
