@@ -61,14 +61,14 @@ inline std::vector<shared::Vpl> sunOnThePlain(size_t count) {
   return vpls;
 }
 
-// 16,384 light samples in all: each pixel has the light of those of the candle, as if the others
-// were not there and as the sum in double precision gives it.
-inline void expectKeepsACandle(std::unique_ptr<Backend> backend) {
+// `count` light samples in all, half of them of the candle: each pixel has the light of those of
+// the candle, as if the others were not there and as the sum in double precision gives it.
+inline void expectKeepsACandle(std::unique_ptr<Backend> backend, size_t count) {
   LitScene lit(darkRoomBelowAPlain(), std::move(backend));
   const View view = viewOfFloor();
-  const std::vector<shared::Vpl> dim = candle(8192);
+  const std::vector<shared::Vpl> dim = candle(count / 2);
   std::vector<shared::Vpl> all = dim;
-  for (const shared::Vpl& vpl : sunOnThePlain(8192)) all.push_back(vpl);
+  for (const shared::Vpl& vpl : sunOnThePlain(count / 2)) all.push_back(vpl);
   const Image alone = lit.sum(dim, view, 8, false, kClampDistance);
   const Image together = lit.sum(all, view, 8, false, kClampDistance);
   for (int y = 0; y < view.height; y += 5) {

@@ -8,7 +8,11 @@ namespace {
 
 using DimLightsGl = test::GlTest;
 
-TEST_F(DimLightsGl, ACandleIsKeptBesideTheSun) { test::expectKeepsACandle(makeGlBackend()); }
+TEST_F(DimLightsGl, ACandleIsKeptBesideTheSun) { test::expectKeepsACandle(makeGlBackend(), 16384); }
+
+TEST_F(DimLightsGl, ACandleOfFewSamplesIsKeptBesideTheSun) {
+  test::expectKeepsACandle(makeGlBackend(), 1000);
+}
 
 }  // namespace
 }  // namespace lamplighter

@@ -4,7 +4,11 @@
 namespace lamplighter {
 namespace {
 
-TEST(DimLights, ACandleIsKeptBesideTheSun) { test::expectKeepsACandle(makeCpuBackend()); }
+TEST(DimLights, ACandleIsKeptBesideTheSun) { test::expectKeepsACandle(makeCpuBackend(), 16384); }
+
+TEST(DimLights, ACandleOfFewSamplesIsKeptBesideTheSun) {
+  test::expectKeepsACandle(makeCpuBackend(), 1000);
+}
 
 // So many lights are summed in two parts. Both are kept from frame to frame.
 TEST(DimLights, ChangesOfManyLightsLeaveTheBitsOfAFreshSum) {

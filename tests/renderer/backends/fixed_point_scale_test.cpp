@@ -62,5 +62,23 @@ TEST(FixedPointScale, IsFineEnoughAndNoSumOverflows) {
   }
 }
 
+// Only for many dim lights, because two parts take longer to sum.
+TEST(FixedPointScale, SumsAreFineForManyDimLights) {
+  const auto needFine = [](size_t dim, float brightness) {
+    std::vector<LightRecord> lights = randomLights(1);
+    for (size_t i = 0; i < dim; ++i) {
+      lights.push_back(lights[0]);
+      lights.back().intensity = vec3(brightness);
+    }
+    return needFineSums(lights, unitsPerIrradiance(lights, 0.25f));
+  };
+  EXPECT_FALSE(needFine(0, 0.0f));
+  EXPECT_FALSE(needFine(500, 1.0f));
+  EXPECT_TRUE(needFine(2000, 1.0f));
+  EXPECT_FALSE(needFine(32, 1e-8f));
+  EXPECT_TRUE(needFine(33, 1e-8f));
+  EXPECT_FALSE(needFine(500, 0.0f));
+}
+
 }  // namespace
 }  // namespace lamplighter::cpu

@@ -14,6 +14,11 @@ namespace {
 constexpr float kMostSum = 0x1p30f;  // units
 constexpr size_t kManyLights = 1024;
 
+// Lights that give less than a unit at this distance [m] are dim. Rounding takes at most half a
+// unit of each, which can be seen if they are many.
+constexpr float kDimDistance = 8.0f;
+constexpr ptrdiff_t kFewDimLights = 32;
+
 // With a clamp below this distance [m], a light can give a point next to it far more than any other
 // point. A unit for the sum of such maxima would be too coarse.
 constexpr float kFineClamp = 0.25f;
@@ -72,7 +77,15 @@ float mostOfPoints(std::span<const LightRecord> lights, float clampDistance2) {
 
 }  // namespace
 
-bool needFineSums(std::span<const LightRecord> lights) { return lights.size() > kManyLights; }
+bool needFineSums(std::span<const LightRecord> lights, float unitsPerIrradiance) {
+  const auto isDim = [&](const LightRecord& light) {
+    const float brightest = brightestOf(light);
+    const bool isParallel = light.kind == LightRecord::Kind::directional;
+    const float distance2 = isParallel ? 1.0f : kDimDistance * kDimDistance;
+    return brightest > 0.0f && brightest * unitsPerIrradiance < distance2;
+  };
+  return lights.size() > kManyLights || std::ranges::count_if(lights, isDim) > kFewDimLights;
+}
 
 // The squares of a directional light do not overlap, so only one square per direction counts.
 float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2) {

@@ -234,7 +234,7 @@ SumCounts IrradianceAccumulator::update(const GBuffer& gbuffer, std::span<const 
                                         std::span<const uint32_t> wanted,
                                         std::span<const uint32_t> leftOutBy) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
-  constants.isFine = needFineSums(lights);
+  constants.isFine = needFineSums(lights, constants.unitsPerIrradiance);
   Frame frame{gbuffer, bySlot(lights), patches, wanted, leftOutBy, {}, {}, {}, {}, {}};
   for (const LightRecord& light : lights) frame.all.push_back(&light);
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
@@ -287,7 +287,7 @@ SumCounts IrradianceAccumulator::update(const GBuffer& gbuffer, std::span<const 
 bool IrradianceAccumulator::isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                                  SumConstants constants, const PatchLights* patches) const {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
-  constants.isFine = needFineSums(lights);
+  constants.isFine = needFineSums(lights, constants.unitsPerIrradiance);
   if (!knowsSums_ || !oldMaps_.empty() || constants != constants_ ||
       hasPatches_ != (patches != nullptr) || !std::ranges::equal(lights, lights_) ||
       mapRevisions_ != revisionsOf(patches ? patches->maps() : nullptr) ||
