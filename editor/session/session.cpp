@@ -218,6 +218,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     output_ =
         renderer_->render({scene, changes, view_, render.method, settings, display_.lightOnly(),
                            updates.has_value(), refineUpdates, display_.part()});
+    tell(std::exchange(output_.failure, nullptr));
     changes.merge(std::exchange(unshown_, {}));
     const bool same = output_.settled && output_.radiance == before && changes.none();
     if (document_.active() != kNoNode) display_.chooseLight(document_.active());
@@ -230,6 +231,17 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
   }
   ++frame_;
   return output_;
+}
+
+// Of work in the background, whose result the picture does without.
+void Session::tell(const std::exception_ptr& failure) {
+  if (!failure) return;
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::exception& e) {
+    setStatus("The picture lacks a part that is computed in the background: " + failureText(e),
+              NoticeKind::error);
+  }
 }
 
 // The document, its history and the last picture stay as they are.

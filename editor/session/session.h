@@ -242,6 +242,7 @@ class Session {
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
   const Scene& litScene(SceneChanges& changes);
   void watchFrame(const SceneChanges& changes, double begin);
+  void tell(const std::exception_ptr& failure);
   void frameFailed(const std::exception& e, const FrameFailures::Input& input);
   std::optional<Place> surfaceAlong(const vec3& direction,
                                     const std::vector<NodeId>& ignored) const;

@@ -1,6 +1,7 @@
 // The interface of all global illumination methods, including the path tracer.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -71,6 +72,8 @@ struct GiOutput {
   bool settled = false;  // rendering the same input again would at most refine the picture
   bool refined = true;   // the picture is refined as far as requested, or refinement is off
   GiStats stats;
+  // An exception of work in the background, to be told once: the picture does without its result.
+  std::exception_ptr failure;
 };
 
 class GiMethod {

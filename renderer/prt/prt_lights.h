@@ -35,7 +35,9 @@ class PrtLights {
     bool operator==(const Options&) const = default;
   };
 
-  explicit PrtLights(TransferCache cache = TransferCache()) : transfers_(std::move(cache)) {}
+  explicit PrtLights(TransferCache cache = TransferCache(),
+                     Transfers::Compute compute = computeTransfer)
+      : transfers_(std::move(cache), std::move(compute)) {}
 
   // By slot.
   struct Lights {
@@ -93,6 +95,8 @@ class PrtLights {
   const Revision& coverage() const { return coverage_; }  // of the result of covers()
 
   Transfers::Progress progress() const { return transfers_.progress(); }
+  // Of the computation in the background. Objects without transfer are lit per pixel.
+  std::exception_ptr takeError() { return transfers_.takeError(); }
   // Rays to VPLs since construction (rays that the database made unnecessary are not counted).
   uint64_t rays() const { return raysTraced_; }
   uint64_t raysSpared() const { return raysSpared_; }

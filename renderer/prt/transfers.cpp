@@ -54,6 +54,11 @@ void Transfers::wait() {
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
+std::exception_ptr Transfers::takeError() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(error_, nullptr);
+}
+
 Transfers::Progress Transfers::progress() const {
   const std::scoped_lock lock(mutex_);
   Progress out;
@@ -79,10 +84,10 @@ void Transfers::work() {
     try {
       transfer = cache_.load(job.key, job.own->positions.size());
       if (!transfer) {
-        transfer = computeTransfer(*job.own, options, progress.get());
+        transfer = compute_(*job.own, options, progress.get());
         if (transfer) cache_.save(job.key, *transfer);
       }
-    } catch (...) {  // Embree is out of memory: the next frame that waits or looks reports it
+    } catch (...) {  // such as Embree's, out of memory: taken by wait() or takeError()
       error = std::current_exception();
     }
     lock.lock();

@@ -3,9 +3,11 @@
 
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -20,7 +22,12 @@ class Transfers {
     std::shared_ptr<const RenderScene> own;  // from ownSceneOf()
   };
 
-  explicit Transfers(TransferCache cache = TransferCache()) : cache_(std::move(cache)) {}
+  // computeTransfer(), or what a test uses instead.
+  using Compute = std::function<std::optional<Transfer>(
+      const RenderScene& own, const TransferOptions& options, TransferProgress* progress)>;
+
+  explicit Transfers(TransferCache cache = TransferCache(), Compute compute = computeTransfer)
+      : cache_(std::move(cache)), compute_(std::move(compute)) {}
   ~Transfers();  // cancels
   Transfers(const Transfers&) = delete;
   Transfers& operator=(const Transfers&) = delete;
@@ -33,6 +40,9 @@ class Transfers {
   std::shared_ptr<const Transfer> find(const TransferKey& key) const;
   // Waits until all are ready. Throws the exception of the computation.
   void wait();
+  // The exception of the computation since the last call; null: there was none. What was in the
+  // queue with it is dropped.
+  std::exception_ptr takeError();
 
   struct Progress {
     size_t pending = 0;  // number of transfers
@@ -44,6 +54,7 @@ class Transfers {
   void work();
 
   const TransferCache cache_;
+  const Compute compute_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   // Protected by the mutex:

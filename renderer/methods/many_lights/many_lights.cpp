@@ -102,6 +102,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   updateLightMaps(in, options, stats);
   stages.end(kLightMapsStage);
   const bool prtChanged = updatePrt(in, options, stats);
+  if (prt_) out.failure = prt_->takeError();
   if (visibility_) visibility_->clearChanged();
   stages.end(kTransferStage);
 

@@ -28,10 +28,12 @@ namespace lamplighter {
 
 class ManyLights final : public GiMethod {
  public:
-  explicit ManyLights(ManyLightsKernels& kernels) : kernels_(&kernels) {}
+  // `transfer`: how radiance transfer is computed.
+  explicit ManyLights(ManyLightsKernels& kernels, Transfers::Compute transfer = computeTransfer)
+      : kernels_(&kernels), computeTransfer_(std::move(transfer)) {}
 
   GiOutput render(const FrameInputs& in) override;
-  void reset() override { *this = ManyLights(*kernels_); }
+  void reset() override { *this = ManyLights(*kernels_, std::move(computeTransfer_)); }
   Inspection inspect() const override;
   // Of light on surfaces, in the last frame.
   const SurfaceLight::Counts& surfaceCounts() const { return meshes_.counts(); }
@@ -76,6 +78,7 @@ class ManyLights final : public GiMethod {
   void addSample(const FrameInputs& in, const Options& options, StageTimer& stages);
 
   ManyLightsKernels* kernels_;  // of the backend
+  Transfers::Compute computeTransfer_;
   bool started_ = false, lightOnly_ = false;
   float lightMapTexel_ = 0.0f;  // spacing in the picture [m]
   LightPart part_ = LightPart::all;

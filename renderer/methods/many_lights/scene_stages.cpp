@@ -110,7 +110,7 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, ManyLi
   // The first call after enabling treats everything as changed.
   RenderSceneChanges changes = in.changes;
   if (!prt_) {
-    prt_ = std::make_unique<PrtLights>(TransferCache(in.services.cacheFolder()));
+    prt_ = std::make_unique<PrtLights>(TransferCache(in.services.cacheFolder()), computeTransfer_);
     changes.rebuilt = true;
   }
   const uint64_t before = prt_->rays();

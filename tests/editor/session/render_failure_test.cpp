@@ -1,9 +1,14 @@
 // If a frame cannot be rendered, the document and the last picture stay.
+#include <atomic>
+#include <functional>
 #include <new>
 #include <stdexcept>
+#include <thread>
 
 #include "editor/session/user_state.h"
 #include "renderer/base/error.h"
+#include "renderer/methods/many_lights/many_lights.h"
+#include "renderer/registry/registry.h"
 #include "tests/editor/session_fixture.h"
 #include "tests/support/failing_kernels.h"
 #include "tests/support/gltf_files.h"
@@ -176,6 +181,66 @@ TEST_F(RenderFailure, TheJournalHasTheEditsOfFramesThatFail) {
   const Recovered recovered = recover(found.front().folder);
   EXPECT_EQ(recovered.warning, "");
   EXPECT_EQ(documentHash(recovered.document), hash());
+}
+
+// many_lights whose transfer cannot be computed while this is not null.
+std::function<void()> failTransfer;
+const char* methodOfFailingTransfer() {
+  static const std::string name = [] {
+    MethodInfo method = manyLightsInfo();
+    method.name = "failing_transfer";
+    method.make = [](Backend& backend) {
+      return std::make_unique<ManyLights>(
+          backend.kernels<ManyLightsKernels>("many_lights"),
+          [](const RenderScene& own, const TransferOptions& options, TransferProgress* progress) {
+            if (failTransfer) failTransfer();
+            return computeTransfer(own, options, progress);
+          });
+    };
+    addMethod(method);
+    return method.name;
+  }();
+  return name.c_str();
+}
+
+// A picture does without the transfer that its thread could not compute.
+TEST_F(RenderFailure, OfTheThreadOfTransferIsTold) {
+  Scene scene = session_.document().scene;
+  const NodeId sphere = test::addMesh(scene, test::sphereMesh(0.5f, 16), vec3(0.0f, 1.0f, 0.0f));
+  session_.open(std::move(scene), "test.gltf", {});
+  RenderSettings render;
+  render.method = methodOfFailingTransfer();
+  render.values.set("vpls", 8);
+  render.values.set("map_resolution", 16);
+  render.values.set("prt", true);
+  std::atomic<int> failed = 0;
+  failTransfer = [&] {
+    ++failed;
+    throw std::runtime_error("Embree error 2");
+  };
+  session_.editing().setInitialRender(render);
+  const uint64_t document = hash();
+  // As in the window: frames with a budget do not wait.
+  const auto settleInBackground = [&] {
+    for (int i = 0; i < 100000 && !session_.renderFrame(16).settled; ++i) std::this_thread::yield();
+    EXPECT_TRUE(session_.output().settled);
+    return session_.output().radiance->pixels().pixels;
+  };
+  const auto lacking = settleInBackground();
+  EXPECT_EQ(failed, 1);
+  EXPECT_EQ(messages("Embree error 2"), 1);
+  EXPECT_EQ(session_.renderError(), "");  // the picture itself did not fail
+  EXPECT_EQ(hash(), document);
+  for (int i = 0; i < 3; ++i) session_.renderFrame(16);
+  EXPECT_EQ(messages("Embree error 2"), 1);
+
+  // The next change of the object tries again.
+  failTransfer = nullptr;
+  session_.select({sphere});
+  ASSERT_TRUE(session_.runAction("object.move 0 1 0"));
+  ASSERT_TRUE(session_.runAction("object.move 0 -1 0"));
+  EXPECT_TRUE(settleInBackground() != lacking);
+  EXPECT_EQ(messages("Embree error 2"), 1);
 }
 
 // An action that edits and then throws is undone, whatever it throws.
