@@ -126,6 +126,10 @@ struct RayCaster::Impl {
   // Traces eight rays in both scenes; `tFar` gets their tFar, which Embree overwrites in `r`.
   void cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r, float* tFar) const;
 
+  // Traces eight rays, then leastHitsAt() for them. `near`: distances of the first hits as Embree
+  // has them; infinity for a miss.
+  void castLeast8(std::span<const Ray, 8> rays, RTCRayHit8& r, float* near, Hit* least) const;
+
   // Rejects hits on objects that have moved away, and on back faces that cameras do not see. N is 1
   // or 8; valid lanes are −1.
   static void passOver(const RTCFilterFunctionNArguments* a) {
@@ -249,6 +253,17 @@ void RayCaster::Impl::cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRay
     rtcIntersect8(valid, embree.moving(), &ofMoving.embree, &r);
 }
 
+void RayCaster::Impl::castLeast8(std::span<const Ray, 8> rays, RTCRayHit8& r, float* near,
+                                 Hit* least) const {
+  alignas(32) float tFar[8];
+  cast8(rays, Surfaces::all, r, tFar);
+  for (size_t i = 0; i < 8; ++i)
+    near[i] = r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
+                                                         : r.ray.tfar[i];
+  std::fill_n(least, 8, Hit());
+  leastHitsAt(rays, std::span<const float, 8>(near, 8), least);
+}
+
 void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                            Surfaces which) const {
   alignas(32) RTCRayHit8 r{};
@@ -265,16 +280,19 @@ void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
   }
 }
 
+void RayCaster::leastHits8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits) const {
+  alignas(32) RTCRayHit8 r{};
+  float near[8];
+  impl_->castLeast8(rays, r, near, hits.data());
+  for (size_t i = 0; i < 8; ++i)
+    if (!hits[i] && !std::isinf(near[i]))
+      hits[i] = placed(impl_->scene, rays[i], r.hit.geomID[i], r.hit.primID[i]);
+}
+
 void RayCaster::distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const {
   alignas(32) RTCRayHit8 r{};
-  alignas(32) float tFar[8];
-  impl_->cast8(rays, Surfaces::all, r, tFar);
-  for (size_t i = 0; i < 8; ++i)
-    distances[i] = r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                       ? std::numeric_limits<float>::infinity()
-                       : r.ray.tfar[i];
   Hit least[8];
-  impl_->leastHitsAt(rays, distances, least);
+  impl_->castLeast8(rays, r, distances.data(), least);
   for (size_t i = 0; i < 8; ++i)
     if (least[i]) distances[i] = least[i].t;
 }

@@ -52,6 +52,10 @@ class RayCaster {
   // directions).
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
+  // Like intersect8(), but of all triangles that are equally near within rounding, also where
+  // surfaces coincide, it takes the one with the least distance, then with the least object and
+  // triangle. So hits do not depend on the tree.
+  void leastHits8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits) const;
   // Only distances, infinity for a miss: the least one of all triangles that are equally near
   // within rounding. So they do not depend on the tree, not even where surfaces coincide.
   void distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const;

@@ -90,7 +90,7 @@ uint64_t traceRays(const RenderScene& scene, const RayCaster& caster, const Surf
     if (lanes == 0) return;
     for (size_t k = lanes; k < 8; ++k) rays[k].tFar = -1.0f;
     hits.fill({});
-    caster.intersect8(rays, hits);
+    caster.leastHits8(rays, hits);
     for (size_t k = 0; k < lanes; ++k)
       links[which[k]] = linkTo(scene, caster, mesh, cuts, hits[k], rays[k]);
     traced += lanes;

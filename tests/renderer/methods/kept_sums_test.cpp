@@ -23,7 +23,8 @@ Settings settingsOf(const std::string& technique, int vpls) {
   const bool usesTransfer = technique.ends_with("transfer");
   const bool usesBlocks = technique.starts_with("blocks");
   const bool isGlossy = technique == "glossy";
-  s.set("technique", usesTransfer || usesBlocks || isGlossy ? "light_maps" : technique);
+  s.set("technique",
+        usesTransfer || usesBlocks || isGlossy || technique == "meshes" ? "light_maps" : technique);
   // Finer maps of all lights would sum all speculars from scratch at last.
   if (isGlossy) s.set("settled_map_scale", 1);
   s.set("prt", usesTransfer);
@@ -34,6 +35,7 @@ Settings settingsOf(const std::string& technique, int vpls) {
   s.set("updates", 9);
   s.set("map_resolution", 16);
   s.set("antialias", 1);
+  if (technique == "meshes") s.set("indirect", std::string("meshes"));
   s.set("share_memory", 0);  // the settled picture is the kept sums
   return s;
 }
@@ -89,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
                          testing::Combine(testing::Values("naive", "visibility", "light_maps",
                                                           "transfer", "reflecting transfer",
                                                           "blocks of 2", "blocks of 4",
-                                                          "blocks of 8", "glossy"),
+                                                          "blocks of 8", "glossy", "meshes"),
                                           testing::Range(1u, 5u)));
 
 // Changes of the block size, and of the picture size with the same number of tiles.
