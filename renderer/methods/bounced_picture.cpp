@@ -31,8 +31,7 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
                                                      int antialias, bool& gbufferIsCurrent) {
   if (antialias > 1 && smooth_.samples() < antialias)
     addSample(in, smooth_, antialias, gbufferIsCurrent);
-  isSmooth_ = antialias <= 1 || smooth_.samples() == antialias;
-  const int shown = isSmooth_ ? antialias : 1;
+  const int shown = smooth_.samples() == antialias ? antialias : 1;
   if (shown <= 1 && plain_.samples() == 0) addSample(in, plain_, 1, gbufferIsCurrent);
   if (shown_ && picture == under_ && shown == antialias_) return shown_;
   Image sum = picture->pixels();

@@ -25,8 +25,10 @@ class BouncedPicture {
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture, int antialias,
                                        bool& gbufferIsCurrent);
-  // Whether the last picture has all rays and is as smooth as wanted.
-  bool isDone() const { return light_.isDone() && isSmooth_; }
+  // Whether the light has all rays, and a picture that is the mean of so many is complete.
+  bool isDone(int antialias) const {
+    return light_.isDone() && (antialias <= 1 || smooth_.samples() == antialias);
+  }
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const { return plain_.bytes() + smooth_.bytes(); }
   void forget() { *this = BouncedPicture(); }
@@ -43,7 +45,6 @@ class BouncedPicture {
   // What was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;
   int antialias_ = 0;
-  bool isSmooth_ = false;
 };
 
 }  // namespace lamplighter

@@ -109,7 +109,10 @@ void ManyLights::mixShares(const FrameInputs& in, const LightShares::Weights& we
 void ManyLights::refineSettled(const FrameInputs& in, const Options& options, bool shadedNow,
                                StageTimer& stages, GiOutput& out, ManyLightsStats& stats) {
   const bool mayRefine = in.part == LightPart::all;
-  if (out.settled && !shadedNow && mayRefine) refine(in, options, stages, out, stats);
+  // The picture is settled when light on surfaces is, too.
+  const bool waits =
+      options.useMeshes() && (!meshes_.isDone(options.antialias) || !in.changes.none());
+  if (out.settled && !shadedNow && mayRefine && !waits) refine(in, options, stages, out, stats);
   out.refined = out.settled && (options.refine == 0 || refinement_.done() || !mayRefine);
 }
 
@@ -165,7 +168,8 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
                  {in.lightOnly, options.speculars, options.leastRoughness});
   const int samples = out.settled && options.antialias > 1 ? options.antialias : 1;
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
-  out.settled = out.settled && meshes_.isDone();
+  if (!meshes_.isDone(options.antialias)) refinement_.restart();
+  out.settled = out.settled && meshes_.isDone(options.antialias);
   out.refined = out.refined && out.settled;
   stats.take(meshes_.counts());
   stats.raysTraced += meshes_.counts().rays;

@@ -114,6 +114,35 @@ TEST(MeshBounces, EditsLeaveTheBitsOfAFreshStart) {
   EXPECT_TRUE(test::sameBits(back, before));
 }
 
+TEST(MeshBounces, RefinementWaitsForLightOnSurfaces) {
+  Room room;
+  Settings settings = meshSettings(3);
+  settings.set("antialias", 4);
+  FrameRenderer renderer(makeCpuBackend());
+  const auto settle = [&](SceneChanges changes) {
+    for (bool settled = false; !settled; changes = {}) {
+      FrameRenderer::Request request{room.scene, changes, room.view, kMethod, settings};
+      request.refineUpdates = 64;
+      const GiOutput out = renderer.render(request);
+      settled = out.settled;
+      EXPECT_FALSE(out.refined);
+      if (!settled) {
+        EXPECT_EQ(out.stats.refineUpdates, 0);
+      }
+    }
+    FrameRenderer::Request request{room.scene, {}, room.view, kMethod, settings};
+    request.refineUpdates = 64;
+    EXPECT_GT(renderer.render(request).stats.refineUpdates, 0);
+  };
+  settle(SceneChanges::all());
+  Scene before = room.scene;
+  room.scene.find(room.box)->local.translation.x += 0.4f;
+  settle(compare(before, room.scene));
+  before = room.scene;
+  room.scene.find(room.light)->area->radiance *= 0.5f;
+  settle(compare(before, room.scene));
+}
+
 TEST(MeshBounces, BouncedLightIsCurrentInTheFrameOfAnEdit) {
   Room room;
   Settings settings = meshSettings(3);
