@@ -248,7 +248,8 @@ void VertexLight::fillUnknown() {
       for (const DividedMesh::Triangle& t : part.triangles) {
         for (size_t e = 0; e < 3; ++e) {
           const uint32_t a = part.points[t.vertices[e]], b = part.points[t.vertices[(e + 1) % 3]];
-          give(a, b), give(b, a);
+          give(a, b);
+          give(b, a);
         }
       }
     }
