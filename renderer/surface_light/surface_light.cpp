@@ -59,7 +59,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   const bool isSame = options == options_ && changes.none() && !links_.isEmpty();
   if (isSame && isDone_) return false;
   const bool isFirst = links_.isEmpty() || changes.rebuilt || options.seed != options_.seed;
-  const bool isOtherwiseLit = !(options == options_);
+  const bool hasOtherOptions = !(options == options_);
   options_ = options;
   lights_ = LightSet(scene, lights_);
 
@@ -91,7 +91,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   isUnsmoothed_.resize(mesh_.samples(), 0);
   for (const uint32_t s : traced) isUnsmoothed_[s] = 1;
   if (isNew || changes.materials || !mesh.objects.empty()) findAlbedo(scene);
-  const bool isLive = isNew || isOtherwiseLit || !changes.none();
+  const bool isLive = isNew || hasOtherOptions || !changes.none();
   if (isLive || links_.isDone() || links_.stage() != stage || !wasCurrent) smooth(scene, isNew);
 
   // 2. Their direct light.

@@ -21,8 +21,8 @@ bool hasShape(const RenderScene& scene, uint32_t object) {
          !scene.materials[static_cast<size_t>(o.material)].isClear();
 }
 
-// An object has no more than one in so many of the samples.
-constexpr size_t kLeastShares = 8;
+// No object has more than this part (1/8) of the samples.
+constexpr size_t kLargestPart = 8;
 
 // The area [m²] and the longest side [m] of an object.
 std::pair<float, float> sizeOf(const RenderScene& scene, uint32_t object) {
@@ -114,7 +114,7 @@ double SurfaceMesh::leastSamples(uint32_t object, int level) const {
 // share of the samples: ground around a house must not take those of the house.
 void SurfaceMesh::findShape(const RenderScene& scene, uint32_t object, int level) {
   Known& known = known_[object];
-  const auto most = std::max(options_.mostSamples / kLeastShares, size_t{1});
+  const auto most = std::max(options_.mostSamples / kLargestPart, size_t{1});
   const auto isLast = [&] { return levelEdge(level) > known.longest; };
   while (!isLast() && leastSamples(object, level) > static_cast<double>(most)) ++level;
   for (;; ++level) {
@@ -138,7 +138,7 @@ bool SurfaceMesh::findShapes(const RenderScene& scene, int level) {
   for (uint32_t o = 0; o < known_.size(); ++o)
     if (identities_[o].hasShape)
       least += std::min(leastSamples(o, level),
-                        static_cast<double>(options_.mostSamples / kLeastShares));
+                        static_cast<double>(options_.mostSamples / kLargestPart));
   if (!isLast && least > static_cast<double>(options_.mostSamples)) return false;
   std::atomic<size_t> samples = 0;
   tbb::parallel_for(size_t{0}, parts_.size(), [&](size_t o) {

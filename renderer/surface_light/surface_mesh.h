@@ -87,6 +87,7 @@ class SurfaceMesh {
     bool operator==(const Identity&) const = default;
     static Identity of(const RenderScene& scene, uint32_t object);
   };
+  // What is found of an object once. Edges of level n are √2ⁿ times as long as those asked for.
   struct Known {
     float area = 0.0f, longest = 0.0f;          // [m²] and [m]
     std::map<int, size_t> samples;              // by level: with edges of levelEdge()
