@@ -21,6 +21,10 @@ RenderPunctual withoutBrightness(RenderPunctual light) {
 
 // Rays from an element to a light of which it sees a part.
 constexpr uint32_t kPartialRays = 24, kPartialSet = 0x52;
+// Large elements whose corners agree are tested by some of them for shadows between the corners.
+constexpr uint32_t kProbeRays = 8;
+constexpr float kLarge = 0.3f;  // longest side [m]
+constexpr float kLift = 0.04f;  // of rays along a surface [edges of elements]
 
 // Of so many elements one shows the light of all until that of each is found.
 constexpr uint32_t kSpread = 8;
@@ -41,6 +45,26 @@ std::vector<SurfaceSpot> spotsOf(const DirectFactors::Scene& now, uint32_t leaf)
       spots.push_back(spotAt(now.scene, object, place));
   }
   return spots;
+}
+
+// `spots`: of an element that is not a cluster: spotsOf().
+bool isLarge(std::span<const SurfaceSpot> spots, bool isMixed) {
+  const auto side = [&](size_t a, size_t b) {
+    return (isMixed ? 1.0f : 2.0f) * glm::distance(spots[a].position, spots[b].position);
+  };
+  return std::max({side(0, 1), side(1, 2), side(2, 0)}) > kLarge;
+}
+
+// Whether nothing is between a spot of an element and one of its corners, just above the surface.
+bool seesCorner(const DirectFactors::Scene& now, uint32_t leaf, size_t corner,
+                const SurfaceSpot& spot) {
+  const uint32_t sample = now.mesh.samplesOfLeaf(leaf)[corner];
+  const vec3 lift = kLift * now.mesh.edge() * spot.geometricNormal;
+  const vec3 from = spot.position + lift;
+  const vec3 to =
+      spotAt(now.scene, now.mesh.objectOfLeaf(leaf), now.mesh.placesOfSample(sample)[0]).position +
+      lift;
+  return !now.rays.occluded({from, 0.0f, to - from, 1.0f});
 }
 
 Bounds boundsOf(const DirectFactors::Scene& now, uint32_t leaf) {
@@ -230,9 +254,11 @@ std::vector<uint32_t> DirectFactors::choose(const Work& work, uint64_t mostRays)
 }
 
 // The light of an element on which a shadow falls: more rays, from places all over it. Each corner
-// gets the share of the light that is seen around it. Returns the number of rays.
-uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t leaf,
-                                    std::array<vec3, 3>& corners) {
+// gets the share of the light that is seen around it; of a mixed element, that is dark if no place
+// near the corner sees it. `seenRays`: how many of the rays see the light. Returns the number of
+// rays.
+uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t leaf, uint32_t count,
+                                    std::array<vec3, 3>& corners, size_t& seenRays) {
   const Scene& now = work.now;
   const uint32_t object = now.mesh.objectOfLeaf(leaf);
   const uint32_t key = leaf - now.mesh.part(object).firstLeaf;
@@ -240,23 +266,36 @@ uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t l
   std::array<vec2, 3> at;
   for (size_t c = 0; c < 3; ++c) at[c] = {places[c].u, places[c].v};
   const vec2 middle = (at[0] + at[1] + at[2]) / 3.0f;
+  // The places are half way between the middle and the corners.
+  const auto spotOf = [&](const vec3& w) {
+    vec2 place(0.0f);
+    for (int c = 0; c < 3; ++c) place += w[c] * (2.0f * at[static_cast<size_t>(c)] - middle);
+    return spotAt(now.scene, object, {places[0].triangle, place.x, place.y});
+  };
   std::vector<SurfaceSpot> spots;
   std::vector<vec3> weights;
-  for (uint32_t i = 0; i < kPartialRays; ++i) {
+  for (uint32_t i = 0; i < count; ++i) {
     const vec2 p = sobol2(i, hash4(key, 0, 0, kPartialSet));
     const float root = std::sqrt(p.x);
-    weights.emplace_back(1.0f - root, root * (1.0f - p.y), root * p.y);
-    // The places are half way between the middle and the corners.
-    vec2 place(0.0f);
-    for (int c = 0; c < 3; ++c)
-      place += weights.back()[c] * (2.0f * at[static_cast<size_t>(c)] - middle);
-    spots.push_back(spotAt(now.scene, object, {places[0].triangle, place.x, place.y}));
+    vec3 w(1.0f - root, root * (1.0f - p.y), root * p.y);
+    vec3 counts = w;
+    if (now.isMixed[leaf] != 0) {
+      // Each corner has its own, on its side of the wall.
+      const int c = static_cast<int>(i % 3);
+      counts = vec3(0.0f);
+      counts[c] = 1.0f;
+      w = 0.5f * w + 0.5f * counts;
+      if (!seesCorner(now, leaf, static_cast<size_t>(c), spotOf(w))) continue;
+    }
+    weights.push_back(counts);
+    spots.push_back(spotOf(w));
   }
   std::vector<LightRay> lights;
   work.emitters[emitter].raysTo(spots, now.scene.objects[object].leftOutBy, ~key, lights);
   std::array<vec3, 3> seen{}, all{};
   for (const LightRay& l : lights) {
     const bool isSeen = !now.rays.occluded(l.ray);
+    seenRays += isSeen ? 1 : 0;
     for (size_t c = 0; c < 3; ++c) {
       const vec3 part = weights[l.spot][static_cast<int>(c)] * l.irradiance;
       all[c] += part;
@@ -302,9 +341,22 @@ void DirectFactors::find(Work& work, uint32_t leaf) {
       else
         corners[0] += share * l.irradiance / static_cast<float>(spots.size());
     }
-    if (!isCluster && now.isMixed[leaf] == 0 && visible > 0 && visible < tested) {
-      corners = open;
-      work.traced += findPartial(work, e, leaf, corners);
+    if (!isCluster && tested > 0) {
+      const bool isMixed = now.isMixed[leaf] != 0;
+      bool isPartial = !isMixed && visible > 0 && visible < tested;
+      if (!isPartial && isLarge(spots, isMixed)) {
+        std::array<vec3, 3> probed = open;
+        size_t seen = 0;
+        const uint64_t rays = findPartial(work, e, leaf, kProbeRays, probed, seen);
+        work.traced += rays;
+        isPartial = visible < tested || seen < rays ? visible > 0 || seen > 0 : false;
+      }
+      if (isPartial) {
+        std::array<vec3, 3> found = open;
+        size_t seen = 0;
+        work.traced += findPartial(work, e, leaf, kPartialRays, found, seen);
+        corners = found;
+      }
     }
     if (isCluster) corners[1] = corners[2] = corners[0];
     ++work.computed;

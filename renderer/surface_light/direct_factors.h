@@ -58,8 +58,8 @@ class DirectFactors {
   void outdate(const Work& work, const std::vector<bool>& isMoved, std::span<const Bounds> boxes);
   std::vector<uint32_t> choose(const Work& work, uint64_t mostRays);
   void find(Work& work, uint32_t leaf);
-  static uint64_t findPartial(const Work& work, size_t emitter, uint32_t leaf,
-                              std::array<vec3, 3>& corners);
+  static uint64_t findPartial(const Work& work, size_t emitter, uint32_t leaf, uint32_t count,
+                              std::array<vec3, 3>& corners, size_t& seenRays);
   void spread(const Work& work);
 
   // One bit for each emitter.
