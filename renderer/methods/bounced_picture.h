@@ -27,13 +27,20 @@ class BouncedPicture {
                                        bool& gbufferIsCurrent);
   // Whether the light has all rays, and a picture that is the mean of so many is complete.
   bool isDone(int antialias) const {
-    return light_.isDone() && (antialias <= 1 || smooth_.samples() == antialias);
+    return light_.isDone() && records_.isDone() &&
+           (antialias <= 1 || smooth_.samples() == antialias);
   }
+  // Estimate of the frames until isDone(), without further changes.
+  int framesLeft(int antialias) const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
-  size_t pictureBytes() const { return plain_.bytes() + smooth_.bytes(); }
+  size_t pictureBytes() const { return records_.bytes() + plain_.bytes() + smooth_.bytes(); }
   void forget() { *this = BouncedPicture(); }
 
  private:
+  GatherScene gatherScene(const FrameInputs& in) const {
+    return {in.scene, in.services.rays(), light_.mesh(), light_.cuts()};
+  }
+  void updateRecords(const FrameInputs& in, bool& gbufferIsCurrent);
   void addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
                  bool& gbufferIsCurrent);
 
@@ -41,6 +48,10 @@ class BouncedPicture {
   RenderSceneChanges unseen_;  // since the last update
   SurfacePictureOptions options_;
   View view_;
+  ViewRecords records_;
+  bool recordsAreOutdated_ = true;  // anything but the light of the mesh changed
+  uint64_t raysLeft_ = 0;           // of this frame
+  uint32_t seed_ = 0;
   SurfacePicture plain_, smooth_;  // without a shift; antialiased
   // What was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;

@@ -7,10 +7,8 @@
 #include "renderer/base/simd.h"
 
 namespace lamplighter {
-namespace {
 
-// The sum of the light at the ends of links.
-vec3 gathered(std::span<const GatherLink> links, const std::vector<float>& reflected) {
+vec3 gatheredLight(std::span<const GatherLink> links, const ReflectedLight& reflected) {
   const hn::FixedTag<float, 4> tag;
   auto sum = hn::Zero(tag);
   for (const GatherLink& link : links) {
@@ -26,14 +24,11 @@ vec3 gathered(std::span<const GatherLink> links, const std::vector<float>& refle
   return {lanes[0], lanes[1], lanes[2]};
 }
 
-}  // namespace
-
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
-                 int bounces, int most, std::vector<vec3>& out) {
+                 int bounces, int most, std::vector<vec3>& out, ReflectedLight& reflected) {
   out.assign(mesh.values(), vec3(0.0f));
   std::vector<vec3> incoming(mesh.samples(), vec3(0.0f));  // sky and bounced light so far
-  // At the corners of elements, times π: three of four floats each, for vectors of that size.
-  std::vector<float> reflected(12 * mesh.leaves(), 0.0f);
+  reflected.assign(12 * mesh.leaves(), 0.0f);
   for (int bounce = 0; bounce < bounces; ++bounce) {
     const auto used = static_cast<size_t>(bounce + 1 == bounces ? most : (most + 3) / 4);
     for (size_t s = 0; s < incoming.size(); ++s) incoming[s] = state.sky[s] + out[s];
@@ -50,7 +45,7 @@ void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const Surfac
       if (mesh.objectOfSample(sample) == SurfaceMesh::kUnused) return;
       const auto known = links.of(sample);
       const auto ends = known.first(std::min(known.size(), used));
-      out[s] = gathered(ends, reflected) / static_cast<float>(ends.size());
+      out[s] = gatheredLight(ends, reflected) / static_cast<float>(ends.size());
     });
     state.smoothing.apply(mesh, out);
   }

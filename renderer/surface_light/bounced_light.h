@@ -19,11 +19,18 @@ struct SurfaceState {
   LightSmoothing smoothing;
 };
 
+// Radiance times π [W/m²] at the corners of elements: three of four floats each, for vectors of
+// that size.
+using ReflectedLight = std::vector<float>;
+
+// The sum of the light at the ends of links. Divided by their number it is irradiance [W/m²].
+vec3 gatheredLight(std::span<const GatherLink> links, const ReflectedLight& reflected);
+
 // Irradiance [W/m²] by bounced light: what other surfaces reflect after 1 to `bounces` bounces.
 // Buried samples have the mean of their neighbours. `most`: links of a sample that are used for the
 // last bounce; earlier ones use a quarter, because their noise is averaged once more. `out`: by
-// value (SurfaceMesh::values()).
+// value (SurfaceMesh::values()). `reflected`: what elements reflect before the last bounce.
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
-                 int bounces, int most, std::vector<vec3>& out);
+                 int bounces, int most, std::vector<vec3>& out, ReflectedLight& reflected);
 
 }  // namespace lamplighter

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
@@ -45,8 +46,26 @@ std::vector<vec3> gatherDirections(int count, uint32_t scramble) {
   return directions;
 }
 
+Frame gatherFrame(const SurfaceSpot& spot) {
+  Frame frame(spot.normal);
+  // A random rotation, without trigonometric functions, which may differ between processors: by up
+  // to 45° (t: tangent of half of it), then by a multiple of 90°.
+  constexpr float kMostTangent = 0.41421356f;
+  const float t = kMostTangent * (static_cast<float>(spot.turn >> 8) / 8388608.0f - 1.0f);
+  float c = (1.0f - t * t) / (1.0f + t * t), s = 2.0f * t / (1.0f + t * t);
+  if ((spot.turn & 1u) != 0) c = std::exchange(s, -c);
+  if ((spot.turn & 2u) != 0) {
+    c = -c;
+    s = -s;
+  }
+  const vec3 tangent = frame.tangent;
+  frame.tangent = c * tangent + s * frame.bitangent;
+  frame.bitangent = c * frame.bitangent - s * tangent;
+  return frame;
+}
+
 vec3 gatherDirection(const SurfaceSpot& spot, const vec3& direction) {
-  const vec3 world = Frame(spot.normal).toWorld(direction);
+  const vec3 world = gatherFrame(spot).toWorld(direction);
   return glm::dot(world, spot.geometricNormal) > 0.0f ? world : vec3(0.0f);
 }
 
@@ -91,6 +110,13 @@ void GatherLinks::renew(const SurfaceMesh& mesh, std::span<const uint32_t> objec
   staleSamples_ = static_cast<size_t>(
       std::ranges::count_if(staleCounts_, [](uint16_t count) { return count > 0; }));
   stage_ = 0;
+}
+
+uint64_t GatherLinks::raysLeft() const {
+  uint64_t left = 0;
+  for (size_t s = 0; s < known_.size(); ++s)
+    if (known_[s] > 0) left += staleCounts_[s] + rays_ - known_[s];
+  return left;
 }
 
 bool GatherLinks::isBuried(uint32_t sample, float within) const {

@@ -33,6 +33,10 @@ std::vector<vec3> gatherDirections(int count, uint32_t scramble);
 // Number of such sets. Neighbouring samples have different ones, so that their mean knows more.
 inline constexpr uint32_t kDirectionSets = 16;
 
+// The frame of a spot's directions: around its normal, turned differently at each place. Otherwise
+// all samples of a wall would look in the same few directions, and a distant window would be
+// brighter or darker by 20% for all of them.
+Frame gatherFrame(const SurfaceSpot& spot);
 // In world space; 0 where it would leave below the surface.
 vec3 gatherDirection(const SurfaceSpot& spot, const vec3& direction);
 
@@ -49,8 +53,9 @@ class GatherLinks {
 
   // After objects moved: all rays of their samples, and those of other samples that touch one of
   // the boxes, which contain the objects before and after, are out of date.
-  void outdate(const RenderScene& scene, const SurfaceMesh& mesh, const CutLeaves& cuts,
-               std::span<const uint32_t> movedObjects, std::span<const Bounds> boxes);
+  void outdate(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
+               const CutLeaves& cuts, std::span<const uint32_t> movedObjects,
+               std::span<const Bounds> boxes);
   // Traces what is out of date and what is missing, up to about `most` rays, but at least the first
   // rays of each sample. Returns the number of rays. `changed`: receives the samples, in ascending
   // order.
@@ -63,6 +68,8 @@ class GatherLinks {
   // How many parts of the directions are known of all samples, at most kStages.
   int stage() const { return stage_; }
   static constexpr int kStages = 3;
+  // Rays that are out of date or missing.
+  uint64_t raysLeft() const;
 
   int rays() const { return static_cast<int>(rays_); }
   // Those that are known.

@@ -1,22 +1,15 @@
 // The rays of GatherLinks.
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
-#include <cmath>
-#include <optional>
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/random.h"
 #include "renderer/surface_light/gather_links.h"
+#include "renderer/surface_light/gather_rays.h"
 
 namespace lamplighter {
 namespace {
-
-uint16_t roundedUp(float distance) {
-  return static_cast<uint16_t>(std::min((std::bit_cast<uint32_t>(distance) >> 16) + 1, 0x7f80u));
-}
 
 // The places of a sample; ray i leaves from place i modulo their number.
 std::vector<SurfaceSpot> spotsOf(const RenderScene& scene, const SurfaceMesh& mesh,
@@ -27,128 +20,27 @@ std::vector<SurfaceSpot> spotsOf(const RenderScene& scene, const SurfaceMesh& me
   return spots;
 }
 
-uint8_t byteOf(float weight) {
-  return static_cast<uint8_t>(std::clamp(weight, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
-
-GatherLink linkTo(const RenderScene& scene, const RayCaster& caster, const SurfaceMesh& mesh,
-                  const CutLeaves& cuts, const Hit& hit, const Ray& ray) {
-  GatherLink link;
-  if (!hit) {
-    link.leaf = GatherLink::kSky;
-    link.distance = roundedUp(std::numeric_limits<float>::infinity());
-    return link;
-  }
-  link.distance = roundedUp(hit.t);
-  const uint32_t* i = &scene.indices[scene.objects[hit.object].firstIndex + 3 * hit.triangle];
-  const vec3& a = scene.positions[i[0]];
-  const vec3 cross = glm::cross(scene.positions[i[1]] - a, scene.positions[i[2]] - a);
-  const bool isBack = glm::dot(cross, ray.direction) > 0.0f;
-  MeshPoint point;
-  if (mesh.find(scene, hit.object, hit.triangle, isBack, {hit.u, hit.v}, point)) {
-    link.leaf = point.leaf;
-    cuts.keepVisible(scene, caster, mesh, ray.origin + hit.t * ray.direction, point.leaf,
-                     point.weights);
-    link.u = byteOf(point.weights.y);
-    link.v = std::min(byteOf(point.weights.z), static_cast<uint8_t>(255 - link.u));
-  } else if (isBack && scene.backIsUnseen(hit.object)) {
-    link.leaf = GatherLink::kInside;
-  }
-  return link;
-}
-
-// A sphere around what changed, seen from a sample: a cone of directions around +Z of the sample.
-struct Cone {
-  vec3 axis{0.0f};
-  float cosine = -1.0f;  // −1: all directions
-
-  // None if all of it is below the surface.
-  static std::optional<Cone> of(const SurfaceSpot& spot, const vec3& centre, float radius) {
-    const vec3 way = centre - spot.rayOrigin();
-    const vec3 local = Frame(spot.normal).toLocal(way);
-    if (local.z < -radius) return std::nullopt;
-    const float distance = glm::length(way);
-    if (distance <= radius) return Cone{};
-    const float sine = radius / distance;
-    return Cone{local / distance, std::sqrt(1.0f - sine * sine) - 1e-4f};
-  }
-  bool contains(const vec3& direction) const { return glm::dot(direction, axis) >= cosine; }
-};
-
-// Traces the rays of one sample for which wants(i) holds, in packets of eight.
-template <typename Wants>
-uint64_t traceRays(const RenderScene& scene, const RayCaster& caster, const SurfaceMesh& mesh,
-                   const CutLeaves& cuts, std::span<const SurfaceSpot> spots,
-                   std::span<const vec3> directions, std::span<GatherLink> links,
-                   const Wants& wants) {
-  uint64_t traced = 0;
-  std::array<Ray, 8> rays;
-  std::array<Hit, 8> hits;
-  std::array<size_t, 8> which{};
-  size_t lanes = 0;
-  const auto flush = [&] {
-    if (lanes == 0) return;
-    for (size_t k = lanes; k < 8; ++k) rays[k].tFar = -1.0f;
-    hits.fill({});
-    caster.leastHits8(rays, hits);
-    for (size_t k = 0; k < lanes; ++k)
-      links[which[k]] = linkTo(scene, caster, mesh, cuts, hits[k], rays[k]);
-    traced += lanes;
-    lanes = 0;
-  };
-  for (size_t i = 0; i < links.size(); ++i) {
-    if (!wants(i)) continue;
-    const SurfaceSpot& spot = spots[i % spots.size()];
-    const vec3 direction = gatherDirection(spot, directions[i]);
-    if (direction == vec3(0.0f)) {
-      links[i] = {};
-      continue;
-    }
-    const Ray ray{spot.rayOrigin(), 0.0f, direction};
-    rays[lanes] = ray;
-    which[lanes++] = i;
-    if (lanes == 8) flush();
-  }
-  flush();
-  return traced;
-}
-
 }  // namespace
 
-void GatherLinks::outdate(const RenderScene& scene, const SurfaceMesh& mesh, const CutLeaves& cuts,
-                          std::span<const uint32_t> movedObjects, std::span<const Bounds> boxes) {
+void GatherLinks::outdate(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
+                          const CutLeaves& cuts, std::span<const uint32_t> movedObjects,
+                          std::span<const Bounds> boxes) {
   std::vector<bool> isMoved(mesh.objects(), false);
   for (const uint32_t o : movedObjects) isMoved[o] = true;
-  // Rays that end on an element beside a box see it otherwise, too.
-  const float reach = cuts.largestChanged();
   tbb::parallel_for(size_t{0}, mesh.samples(), [&](size_t k) {
     const auto sample = static_cast<uint32_t>(k);
     const uint32_t object = mesh.objectOfSample(sample);
     if (object == SurfaceMesh::kUnused || known_[k] == 0) return;
     const auto links = of(sample);
     const auto stale = staleOf(sample);
-    const auto mark = [&](size_t i) { stale[i / 64] |= uint64_t{1} << i % 64; };
     if (isMoved[object]) {
-      for (size_t i = 0; i < links.size(); ++i) mark(i);
+      for (size_t i = 0; i < links.size(); ++i) stale[i / 64] |= uint64_t{1} << i % 64;
     } else {
       const auto directions = directionsOf(sample);
-      const auto places = mesh.placesOfSample(sample);
-      for (size_t p = 0; p < places.size(); ++p) {
-        const SurfaceSpot spot = spotAt(scene, object, places[p]);
-        for (const Bounds& box : boxes) {
-          if (box.empty()) continue;
-          const auto cone = Cone::of(spot, box.centre(), box.radius() + reach);
-          if (!cone) continue;
-          for (size_t i = p; i < links.size(); i += places.size()) {
-            if (!cone->contains(directions[i])) continue;
-            const vec3 direction = gatherDirection(spot, directions[i]);
-            if (direction == vec3(0.0f)) continue;
-            const bool endsNear = links[i].isLeaf() && cuts.mayDiffer(links[i].leaf);
-            if (endsNear || mayTouch({spot.rayOrigin(), 0.0f, direction, links[i].metres()}, box))
-              mark(i);
-          }
-        }
-      }
+      const auto spots = spotsOf(scene, mesh, sample);
+      for (size_t p = 0; p < spots.size(); ++p)
+        markTouched({scene, rays, mesh, cuts}, spots[p], boxes, directions, links, p, spots.size(),
+                    stale);
     }
     int count = 0;
     for (const uint64_t word : stale) count += std::popcount(word);
@@ -201,10 +93,11 @@ uint64_t GatherLinks::trace(const RenderScene& scene, const RayCaster& rays,
     const auto stale = staleOf(s);
     const size_t from = known_[s];
     known_[s] = target[s];
-    traced += traceRays(scene, rays, mesh, cuts, spotsOf(scene, mesh, s), directionsOf(s),
-                        std::span(links_).subspan(s * rays_, target[s]), [&](size_t i) {
-                          return i >= from || (isStale[s] && (stale[i / 64] >> i % 64 & 1u) != 0);
-                        });
+    std::vector<uint64_t> wanted(words_, 0);
+    if (isStale[s]) std::ranges::copy(stale, wanted.begin());
+    for (size_t i = from; i < target[s]; ++i) wanted[i / 64] |= uint64_t{1} << i % 64;
+    traced += traceGatherRays({scene, rays, mesh, cuts}, spotsOf(scene, mesh, s), directionsOf(s),
+                              wanted, std::span(links_).subspan(s * rays_, target[s]));
     if (!isStale[s]) return;
     std::ranges::fill(stale, 0u);
     staleCounts_[s] = 0;

@@ -22,6 +22,8 @@ class LightSmoothing {
   // The same for values of the corners of elements, within each element.
   void fillCorners(const SurfaceMesh& mesh, std::vector<vec3>& corners) const;
   bool isBuried(uint32_t sample) const { return isBuried_[sample] != 0; }
+  // GatherLinks::reachOf() of a sample.
+  float reachOf(uint32_t sample) const { return reach_[sample]; }
   size_t bytes() const;
 
  private:

@@ -19,7 +19,11 @@ constexpr size_t kManyLinks = size_t{1} << 22;
 
 // Where memory is short, samples have so many rays, and elements are larger only beyond that: in
 // levels of many samples the mean of neighbours is as smooth.
-constexpr int kFewRays = 64;
+constexpr int kFewRays = 32;
+
+// The mesh shows the light in full where what a sample sees is, in the mean, as many edges of
+// elements away, and not at all where it is nearer than the lesser number.
+constexpr float kFullReach = 4.0f, kLeastReach = 1.0f;
 
 size_t mostSamples(const SurfaceLightOptions& options) {
   const auto rays = static_cast<size_t>(std::min(kFewRays, options.gatherRays));
@@ -56,6 +60,9 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
                           uint64_t mostRays) {
   counts_.rays = counts_.samplesTraced = counts_.factorsFound = counts_.masks = 0;
   keptMesh_ = true;
+  moved_.clear();
+  boxes_.clear();
+  hasOtherElements_ = false;
   const bool isSame = options == options_ && changes.none() && !links_.isEmpty();
   if (isSame && isDone_) return false;
   const bool isFirst = links_.isEmpty() || changes.rebuilt || options.seed != options_.seed;
@@ -67,18 +74,18 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   const SurfaceMeshChange mesh = mesh_.update(scene, changes, {options.edge, mostSamples(options)});
   const int raysOfSample = gatherRays(options, mesh_.usedSamples());
   const bool isNew = mesh.isNew || isFirst || raysOfSample != links_.rays();
-  std::vector<uint32_t> moved = changes.movedObjects;
-  moved.insert(moved.end(), mesh.objects.begin(), mesh.objects.end());
-  std::vector<Bounds> boxes;
-  if (!isNew) boxes = boxesOf(scene, changes);
-  if (!isNew) boxes.insert(boxes.end(), mesh.boxes.begin(), mesh.boxes.end());
-  keptMesh_ = !isNew && moved.empty() && !changes.materials;
-  if (!isSame) counts_.rays += cuts_.update(scene, rays, mesh_, isNew, moved, boxes);
+  moved_ = changes.movedObjects;
+  moved_.insert(moved_.end(), mesh.objects.begin(), mesh.objects.end());
+  if (!isNew) boxes_ = boxesOf(scene, changes);
+  if (!isNew) boxes_.insert(boxes_.end(), mesh.boxes.begin(), mesh.boxes.end());
+  hasOtherElements_ = isNew || !mesh.objects.empty();
+  keptMesh_ = !isNew && moved_.empty() && !changes.materials;
+  if (!isSame) counts_.rays += cuts_.update(scene, rays, mesh_, isNew, moved_, boxes_);
   if (isNew) {
     links_.restart(mesh_, raysOfSample, options.seed);
-  } else if (!moved.empty()) {
+  } else if (!moved_.empty()) {
     if (!mesh.objects.empty()) links_.renew(mesh_, mesh.objects);
-    links_.outdate(scene, mesh_, cuts_, moved, boxes);
+    links_.outdate(scene, rays, mesh_, cuts_, moved_, boxes_);
   }
   const bool wasCurrent = links_.isCurrent() && direct_.isDone();
   const int stage = links_.stage();
@@ -98,7 +105,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   const uint64_t left = mostRays - std::min(mostRays, gathered);
   counts_.rays +=
       direct_.update({scene, rays, lights_, mesh_, state_.isMixed, options.seed, options.mask},
-                     isNew, moved, boxes, std::max(left, mostRays / 2));
+                     isNew, moved_, boxes_, std::max(left, mostRays / 2));
   counts_.factorsFound = direct_.factors();
   counts_.masks = direct_.masked();
 
@@ -141,7 +148,20 @@ void SurfaceLight::findLight(int bounces, int most) {
   state_.sky.resize(mesh_.samples());
   for (size_t s = 0; s < state_.sky.size(); ++s) state_.sky[s] = gain * sky_[s];
   if (gain != vec3(0.0f)) state_.smoothing.apply(mesh_, state_.sky);
-  bounceLight(mesh_, links_, state_, bounces, most, bounced_);
+  bounceLight(mesh_, links_, state_, bounces, most, bounced_, reflected_);
+}
+
+float SurfaceLight::trustAt(const MeshPoint& point) const {
+  if (state_.isMixed.empty() || state_.isMixed[point.leaf] || mesh_.isCluster(point.leaf))
+    return 0.0f;
+  float trust = 0.0f;
+  const auto samples = mesh_.samplesOfLeaf(point.leaf);
+  for (size_t c = 0; c < 3; ++c) {
+    const float ratio = state_.smoothing.reachOf(samples[c]) / mesh_.edge();
+    trust += point.weights[static_cast<int>(c)] *
+             std::clamp((ratio - kLeastReach) / (kFullReach - kLeastReach), 0.0f, 1.0f);
+  }
+  return trust;
 }
 
 void SurfaceLight::findAlbedo(const RenderScene& scene) {

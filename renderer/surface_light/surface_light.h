@@ -48,6 +48,17 @@ class SurfaceLight {
 
   // Irradiance of bounced light by value of the mesh [W/m²]. SurfacePicture shows it.
   const std::vector<vec3>& values() const { return bounced_; }
+  // What elements reflect, for further points that gather light.
+  const ReflectedLight& reflected() const { return reflected_; }
+  // How well the mesh shows the light at a point, from 0 to 1: not where surfaces are near compared
+  // with an element, nor on elements that are cut by walls or stand for many small triangles.
+  float trustAt(const MeshPoint& point) const;
+  // What the last update found to have moved, if it kept the elements' numbers: objects, and boxes
+  // that contain them before and after.
+  const std::vector<uint32_t>& movedObjects() const { return moved_; }
+  const std::vector<Bounds>& movedBoxes() const { return boxes_; }
+  // Whether elements have other numbers since the update before.
+  bool hasOtherElements() const { return hasOtherElements_; }
 
   const SurfaceMesh& mesh() const { return mesh_; }
   const CutLeaves& cuts() const { return cuts_; }
@@ -69,8 +80,12 @@ class SurfaceLight {
   DirectFactors direct_;
   SurfaceState state_;
   std::vector<vec3> bounced_;  // by value
-  std::vector<vec3> sky_;      // by sample: what rays see of the sky, at its reference brightness
-  Sky seenSky_;                // the sky of it
+  ReflectedLight reflected_;
+  std::vector<uint32_t> moved_;
+  std::vector<Bounds> boxes_;
+  bool hasOtherElements_ = false;
+  std::vector<vec3> sky_;  // by sample: what rays see of the sky, at its reference brightness
+  Sky seenSky_;            // the sky of it
   std::vector<uint8_t> isUnsmoothed_;  // by sample: traced since smoothing was found
   bool isDone_ = false, keptMesh_ = false;
   Counts counts_;

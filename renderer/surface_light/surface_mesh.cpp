@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/random.h"
 #include "renderer/scene/surface.h"
 #include "renderer/surface_light/own_mesh.h"
 
@@ -233,6 +235,8 @@ SurfaceSpot spotAt(const RenderScene& scene, uint32_t object, const SurfacePlace
   const vec3 w(1.0f - place.u - place.v, place.u, place.v);
   const vec3 &a = scene.positions[i[0]], &b = scene.positions[i[1]], &c = scene.positions[i[2]];
   SurfaceSpot out;
+  out.turn =
+      hash4(place.triangle, std::bit_cast<uint32_t>(place.u), std::bit_cast<uint32_t>(place.v), 0);
   out.position = w.x * a + w.y * b + w.z * c;
   const vec3 cross = glm::cross(b - a, c - a);
   const float length = glm::length(cross);

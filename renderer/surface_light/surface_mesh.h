@@ -24,6 +24,7 @@ struct SurfaceSpot {
   vec3 position{0.0f};
   vec3 normal{0.0f};           // smooth; no normal map
   vec3 geometricNormal{0.0f};  // of the triangle
+  uint32_t turn = 0;           // random bits of the place; they turn gatherFrame()
 
   vec3 rayOrigin() const { return position + rayEpsilon(position) * geometricNormal; }
 };

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/scene/surface.h"
+#include "renderer/surface_light/seen_triangle.h"
 #include "shaders/shared/brdf.h"
 
 namespace lamplighter {
@@ -15,25 +16,6 @@ constexpr float kMost = 65535.0f;
 uint16_t packed(float share) {
   return static_cast<uint16_t>(std::clamp(share, 0.0f, 1.0f) * kMost + 0.5f);
 }
-
-// Weights of the second and third vertex of the triangle that a pixel shows.
-struct SeenTriangle {
-  vec2 weights{0.0f};
-  bool isBack = false, isSound = false;
-
-  SeenTriangle(const RenderScene& scene, const GBufferPoint& p) {
-    const uint32_t* i = &scene.indices[scene.objects[p.object].firstIndex + 3 * p.triangle];
-    const vec3& a = scene.positions[i[0]];
-    const vec3 ab = scene.positions[i[1]] - a, ac = scene.positions[i[2]] - a;
-    const vec3 cross = glm::cross(ab, ac), d = p.position - a;
-    const float area2 = glm::dot(cross, cross);
-    isSound = area2 > 0.0f;
-    if (!isSound) return;
-    weights.x = std::clamp(glm::dot(glm::cross(d, ac), cross) / area2, 0.0f, 1.0f);
-    weights.y = std::clamp(glm::dot(glm::cross(ab, d), cross) / area2, 0.0f, 1.0f - weights.x);
-    isBack = glm::dot(cross, p.geometricNormal) < 0.0f;
-  }
-};
 
 // π × the share of even light that is reflected towards the eye. A lobe reflects even light as its
 // directional albedo.
@@ -63,45 +45,69 @@ void SurfacePicture::restart(int width, int height, int samples) {
       static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(samples), {});
 }
 
-void SurfacePicture::add(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
-                         const CutLeaves& cuts, const GBufferView& gbuffer, const vec3& eye,
+void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
+                         const ViewRecords& records, const GBufferView& gbuffer, const vec3& eye,
                          const SurfacePictureOptions& options) {
   const size_t pixels = static_cast<size_t>(width_) * static_cast<size_t>(height_);
+  const RenderScene& scene = in.scene;
   Point* points = points_.data() + static_cast<size_t>(added_++) * pixels;
-  tbb::parallel_for(0, height_, [&](int y) {
-    for (int x = 0; x < width_; ++x) {
-      if (!gbuffer.isHit(x, y)) continue;
-      const GBufferPoint p = gbuffer.at(x, y);
-      const SeenTriangle seen(scene, p);
-      MeshPoint at;
-      if (!seen.isSound || !mesh.find(scene, p.object, p.triangle, seen.isBack, seen.weights, at))
-        continue;
-      cuts.keepVisible(scene, rays, mesh, p.position, at.leaf, at.weights);
-      const vec3 reflectance = reflectanceOf(scene, p, seen.weights, eye, options);
-      Point& out =
-          points[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
-      out.values = at.values;
-      out.weights = {packed(at.weights.y), packed(at.weights.z)};
-      out.reflectance = {packed(reflectance.r), packed(reflectance.g), packed(reflectance.b)};
+  const auto show = [&](int x, int y, Point& out) {
+    const GBufferPoint p = gbuffer.at(x, y);
+    const SeenTriangle seen(scene, p);
+    MeshPoint at;
+    if (!seen.isSound || !in.mesh.find(scene, p.object, p.triangle, seen.isBack, seen.weights, at))
+      return;
+    const vec3 reflectance = reflectanceOf(scene, p, seen.weights, eye, options);
+    out.reflectance = {packed(reflectance.r), packed(reflectance.g), packed(reflectance.b)};
+    if (light.trustAt(at) < 1.0f) {
+      const uint32_t triangles = scene.objects[p.object].triangleCount();
+      ViewRecords::Point found;
+      if (records.find(
+              x, y,
+              spotAt(scene, p.object,
+                     {p.triangle + (seen.isBack ? triangles : 0), seen.weights.x, seen.weights.y}),
+              found)) {
+        for (size_t k = 0; k < 4; ++k) out.values[k] = kRecord + found.records[k];
+        for (size_t k = 1; k < 4; ++k) out.weights[k - 1] = packed(found.weights[k]);
+        return;
+      }
     }
+    in.cuts.keepVisible(scene, in.rays, in.mesh, p.position, at.leaf, at.weights);
+    std::ranges::copy(at.values, out.values.begin());
+    out.weights = {packed(at.weights.y), packed(at.weights.z), 0};
+  };
+  tbb::parallel_for(0, height_, [&](int y) {
+    for (int x = 0; x < width_; ++x)
+      if (gbuffer.isHit(x, y))
+        show(x, y,
+             points[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)]);
   });
 }
 
-void SurfacePicture::addTo(std::span<const vec3> irradiance, Image& picture) const {
-  if (added_ == 0 || irradiance.empty()) return;
+void SurfacePicture::addTo(std::span<const vec3> onMesh, std::span<const vec3> ofRecords,
+                           Image& picture) const {
+  if (added_ == 0 || onMesh.empty()) return;
   const size_t pixels = picture.pixels.size();
   const float scale = 1.0f / (kMost * kPi * static_cast<float>(added_));
+  const auto light = [&](uint32_t value) {
+    return (value & kRecord) != 0 ? ofRecords[value & ~kRecord] : onMesh[value];
+  };
   tbb::parallel_for(0, height_, [&](int y) {
     const size_t first = static_cast<size_t>(y) * static_cast<size_t>(width_);
     for (size_t i = first; i < first + static_cast<size_t>(width_); ++i) {
       vec3 sum(0.0f);
       for (int s = 0; s < added_; ++s) {
         const Point& p = points_[static_cast<size_t>(s) * pixels + i];
-        const float u = static_cast<float>(p.weights[0]) / kMost;
-        const float v = static_cast<float>(p.weights[1]) / kMost;
-        sum += vec3(p.reflectance[0], p.reflectance[1], p.reflectance[2]) *
-               ((1.0f - u - v) * irradiance[p.values[0]] + u * irradiance[p.values[1]] +
-                v * irradiance[p.values[2]]);
+        vec3 irradiance(0.0f);
+        float rest = 1.0f;
+        for (size_t k = 0; k < p.weights.size(); ++k) {
+          if (p.weights[k] == 0) continue;
+          const float weight = static_cast<float>(p.weights[k]) / kMost;
+          irradiance += weight * light(p.values[k + 1]);
+          rest -= weight;
+        }
+        irradiance += rest * light(p.values[0]);
+        sum += vec3(p.reflectance[0], p.reflectance[1], p.reflectance[2]) * irradiance;
       }
       picture.pixels[i] += scale * sum;
     }

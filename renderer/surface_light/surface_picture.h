@@ -7,7 +7,7 @@
 
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/image/image.h"
-#include "renderer/surface_light/cut_leaves.h"
+#include "renderer/surface_light/view_records.h"
 
 namespace lamplighter {
 
@@ -22,23 +22,24 @@ class SurfacePicture {
  public:
   // Forgets all pixels. `samples`: how many G-buffers of this size follow.
   void restart(int width, int height, int samples);
-  // One of them.
-  void add(const RenderScene& scene, const RayCaster& rays, const SurfaceMesh& mesh,
-           const CutLeaves& cuts, const GBufferView& gbuffer, const vec3& eye,
-           const SurfacePictureOptions& options);
+  // One of them. Pixels where the mesh is too coarse are shown by records.
+  void add(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,
+           const GBufferView& gbuffer, const vec3& eye, const SurfacePictureOptions& options);
 
   int samples() const { return added_; }
   // Adds the radiance that reflects the irradiance on the mesh, the mean of the samples.
-  // `irradiance`: by value [W/m²].
-  void addTo(std::span<const vec3> irradiance, Image& picture) const;
+  // `onMesh`: irradiance by value of the mesh, `ofRecords`: by record [W/m²].
+  void addTo(std::span<const vec3> onMesh, std::span<const vec3> ofRecords, Image& picture) const;
   size_t bytes() const { return points_.size() * sizeof(Point); }
 
  private:
+  static constexpr uint32_t kRecord = 0x80000000u;
   struct Point {
-    std::array<uint32_t, 3> values{};
-    // Weights of the second and third value; the share of irradiance that is reflected, times π.
+    // Values of the mesh, or kRecord + a record.
+    std::array<uint32_t, 4> values{};
+    // Weights of the values but the first; the share of irradiance that is reflected, times π.
     // [1/65535]
-    std::array<uint16_t, 2> weights{};
+    std::array<uint16_t, 3> weights{};
     std::array<uint16_t, 3> reflectance{};
   };
   int width_ = 0, height_ = 0, samples_ = 0, added_ = 0;

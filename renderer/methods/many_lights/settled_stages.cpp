@@ -171,6 +171,9 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
   if (!meshes_.isDone(options.antialias)) refinement_.restart();
   out.settled = out.settled && meshes_.isDone(options.antialias);
   out.refined = out.refined && out.settled;
+  if (!out.settled)
+    stats.framesUntilSettled =
+        std::max({1, stats.framesUntilSettled, meshes_.framesLeft(options.antialias)});
   stats.take(meshes_.counts());
   stats.raysTraced += meshes_.counts().rays;
   stages.end(kMeshesStage);

@@ -126,7 +126,8 @@ TEST(SurfaceLight, FurnaceHasTheLightOfAGeometricSeries) {
     double expected = 0.0;
     for (int k = 1; k <= bounces; ++k) expected += std::pow(0.7, k);
     std::vector<vec3> light;
-    bounceLight(mesh, links, state, bounces, 256, light);
+    ReflectedLight reflected;
+    bounceLight(mesh, links, state, bounces, 256, light, reflected);
     for (const vec3& e : light) ASSERT_NEAR(e.g, expected, 1e-4 * expected);
   }
 }

@@ -1,0 +1,286 @@
+#include "renderer/surface_light/view_records.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
+#include "renderer/surface_light/gather_rays.h"
+#include "renderer/surface_light/seen_triangle.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr uint32_t kRecordSet = 0x7ec;
+constexpr std::array<int, 4> kSteps{16, 8, 4, 2};  // pixels between records, by level
+constexpr size_t kMostRecords = 65536;
+// A record is used within this share of the harmonic mean distance of what it sees.
+constexpr float kReachShare = 0.35f;
+// How fast weights fall as normals turn: to 0 at 22°.
+constexpr float kTurn = 14.0f;
+// A distance from the plane of the spot counts as so many along it.
+constexpr float kOffPlane = 4.0f;
+// Pixels with less weight than this get records of their own.
+constexpr float kCovered = 0.3f;
+constexpr float kLeastWeight = 1e-4f;
+constexpr int kSmoothPasses = 4;
+// Light is averaged over records within so many radii.
+constexpr float kSmoothRadius = 1.5f;
+
+// Where it could be used if it were a record of the finest level [pixels].
+constexpr float kFinestRadius = 24.0f;
+
+// Records beside each other gather light from different directions; those of 4 × 4 cells know all.
+// (Keller and Heidrich, "Interleaved Sampling", 2001)
+constexpr uint32_t kSets = 16;
+uint8_t setOf(int x, int y) { return static_cast<uint8_t>(x % 4 + 4 * (y % 4)); }
+
+float similarity(const SurfaceSpot& a, const SurfaceSpot& b, float radius) {
+  const float turn = 1.0f - kTurn * (1.0f - glm::dot(a.normal, b.normal));
+  if (turn <= 0.0f) return 0.0f;
+  const vec3 d = b.position - a.position;
+  const float off = std::abs(glm::dot(d, b.geometricNormal));
+  return turn * std::max(0.0f, 1.0f - (glm::length(d) + kOffPlane * off) / radius);
+}
+
+}  // namespace
+
+void ViewRecords::restart(const View& view, uint32_t seed) {
+  *this = {};
+  view_ = view;
+  for (size_t l = 0; l < kSteps.size(); ++l) {
+    const int step = kSteps[l];
+    levels_[l] = {step, (view.width + step - 1) / step, (view.height + step - 1) / step, {}};
+  }
+  // Consecutive points of a Sobol sequence are spread as evenly as all of them.
+  for (uint32_t i = 0; i < kSets * kRays; ++i)
+    directions_.push_back(sampleCosineHemisphere(sobol2(i, hash4(seed, 0, 0, kRecordSet))));
+}
+
+float ViewRecords::pixelSize(const vec3& position) const {
+  return glm::dot(position - view_.eye, view_.forward()) * 2.0f * std::tan(0.5f * view_.yfov) /
+         static_cast<float>(view_.height);
+}
+
+float ViewRecords::weightOf(const Record& record, const SurfaceSpot& spot) const {
+  return similarity(record.spot, spot, record.radius);
+}
+
+template <typename Take>
+void ViewRecords::around(int x, int y, const SurfaceSpot& spot, size_t levels,
+                         const Take& take) const {
+  for (size_t l = 0; l < levels; ++l) {
+    const Level& level = levels_[l];
+    if (level.records.empty()) continue;
+    const auto step = static_cast<float>(level.step);
+    const float fx = (static_cast<float>(x) + 0.5f) / step - 0.5f;
+    const float fy = (static_cast<float>(y) + 0.5f) / step - 0.5f;
+    const int x0 = static_cast<int>(std::floor(fx)), y0 = static_cast<int>(std::floor(fy));
+    const float u = fx - static_cast<float>(x0), v = fy - static_cast<float>(y0);
+    for (int i = 0; i < 4; ++i) {
+      const int cx = x0 + (i & 1), cy = y0 + (i >> 1);
+      if (cx < 0 || cy < 0 || cx >= level.width || cy >= level.height) continue;
+      const int32_t r = level.records[static_cast<size_t>(cy * level.width + cx)];
+      if (r < 0) continue;
+      const float tent = ((i & 1) != 0 ? u : 1.0f - u) * ((i >> 1) != 0 ? v : 1.0f - v);
+      const float weight = tent * weightOf(records_[static_cast<size_t>(r)], spot);
+      if (weight > 0.0f) take(static_cast<uint32_t>(r), weight);
+    }
+  }
+}
+
+void ViewRecords::update(const GatherScene& scene, const SurfaceLight& light,
+                         const GBufferView& gbuffer, bool isOther, uint64_t most) {
+  traced_ = 0;
+  choseAnew_ = false;
+  if (light.hasOtherElements()) {
+    records_.clear();
+    for (Level& level : levels_) level.records.clear();
+  } else if (!light.movedBoxes().empty()) {
+    std::vector<bool> isMoved(scene.mesh.objects(), false);
+    for (const uint32_t o : light.movedObjects()) isMoved[o] = true;
+    tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
+      Record& r = records_[k];
+      if (isMoved[r.object])
+        r.stale = ~uint64_t{0};
+      else
+        markTouched(scene, r.spot, light.movedBoxes(), directionsOf(r), linksOf(k), 0, 1,
+                    {&r.stale, 1});
+    });
+  }
+  if (isOther || !isDone_) choose(scene, light, gbuffer, most);
+  findLight(light);
+}
+
+void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
+                         const GBufferView& gbuffer, uint64_t most) {
+  const std::vector<Record> old = std::exchange(records_, {});
+  const std::vector<GatherLink> oldLinks = std::exchange(links_, {});
+  std::array<Level, 4> before = levels_;
+  for (Level& level : levels_) level.records.clear();
+  isDone_ = true;
+  choseAnew_ = true;
+  raysLeft_ = 0;
+  for (size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    const auto cells = static_cast<size_t>(level.width) * static_cast<size_t>(level.height);
+    std::vector<Record> wanted(cells);
+    std::vector<uint8_t> isWanted(cells, 0);
+    tbb::parallel_for(size_t{0}, cells, [&](size_t cell) {
+      const int x = static_cast<int>(cell) % level.width * level.step + level.step / 2;
+      const int y = static_cast<int>(cell) / level.width * level.step + level.step / 2;
+      if (x >= gbuffer.width() || y >= gbuffer.height() || !gbuffer.isHit(x, y)) return;
+      const GBufferPoint p = gbuffer.at(x, y);
+      const SeenTriangle seen(scene.scene, p);
+      Record& r = wanted[cell];
+      if (!seen.isSound ||
+          !scene.mesh.find(scene.scene, p.object, p.triangle, seen.isBack, seen.weights, r.onMesh))
+        return;
+      r.trust = light.trustAt(r.onMesh);
+      if (r.trust >= 1.0f) return;
+      r.object = p.object;
+      r.place = p.triangle + (seen.isBack ? scene.scene.objects[p.object].triangleCount() : 0);
+      r.spot = spotAt(scene.scene, p.object, {r.place, seen.weights.x, seen.weights.y});
+      r.level = static_cast<uint8_t>(l);
+      r.cell = static_cast<uint32_t>(cell);
+      float covered = 0.0f;
+      around(x, y, r.spot, l, [&](uint32_t, float weight) { covered += weight; });
+      isWanted[cell] = covered < kCovered ? 1 : 0;
+    });
+    level.records.assign(cells, kNone);
+    std::vector<uint32_t> traced;
+    for (size_t cell = 0; cell < cells; ++cell) {
+      if (!isWanted[cell] || records_.size() >= kMostRecords) continue;
+      Record& r = wanted[cell];
+      const int32_t was = before[l].records.empty() ? kNone : before[l].records[cell];
+      const bool isKnown = was >= 0 && old[static_cast<size_t>(was)].isSame(r);
+      r.stale = isKnown ? old[static_cast<size_t>(was)].stale : ~uint64_t{0};
+      r.set = setOf(static_cast<int>(cell) % level.width, static_cast<int>(cell) / level.width);
+      const bool hasTime = traced_ < most;
+      if (!hasTime && r.stale != 0) {
+        isDone_ = false;
+        raysLeft_ += kRays;
+      }
+      if (!hasTime && !isKnown) continue;
+      const auto id = static_cast<uint32_t>(records_.size());
+      level.records[cell] = static_cast<int32_t>(id);
+      links_.resize(links_.size() + kRays);
+      if (isKnown) {
+        const auto from = oldLinks.begin() + static_cast<std::ptrdiff_t>(was) * kRays;
+        std::copy_n(from, kRays, linksOf(id).begin());
+        r.radius = old[static_cast<size_t>(was)].radius;
+      }
+      records_.push_back(r);
+      if (r.stale == 0 || !hasTime) continue;
+      traced.push_back(id);
+      traced_ += static_cast<uint64_t>(std::popcount(r.stale));
+    }
+    trace(scene, traced);
+  }
+  findNear();
+}
+
+void ViewRecords::trace(const GatherScene& scene, std::span<const uint32_t> records) {
+  tbb::parallel_for(size_t{0}, records.size(), [&](size_t k) {
+    Record& r = records_[records[k]];
+    const auto links = linksOf(records[k]);
+    traceGatherRays(scene, {&r.spot, 1}, directionsOf(r), {&r.stale, 1}, links);
+    r.stale = 0;
+    float sum = 0.0f;
+    for (const GatherLink& link : links) sum += 1.0f / std::max(link.metres(), 1e-6f);
+    r.radius = kReachShare * static_cast<float>(kRays) / std::max(sum, 1e-6f);
+    if (r.level + 1u == kSteps.size())
+      r.radius = std::max(r.radius, kFinestRadius * pixelSize(r.spot.position));
+  });
+}
+
+void ViewRecords::findNear() {
+  near_.assign(records_.size(), {});
+  tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
+    const Record& r = records_[k];
+    Near& near = near_[k];
+    const Level& level = levels_[r.level];
+    const int x = static_cast<int>(r.cell) % level.width,
+              y = static_cast<int>(r.cell) / level.width;
+    const auto add = [&](const Level& at, int cx, int cy) {
+      if (cx < 0 || cy < 0 || cx >= at.width || cy >= at.height) return;
+      const int32_t other = at.records[static_cast<size_t>(cy * at.width + cx)];
+      if (other < 0 || static_cast<size_t>(other) == k || near.count == near.records.size()) return;
+      const Record& o = records_[static_cast<size_t>(other)];
+      const float weight = similarity(r.spot, o.spot, kSmoothRadius * std::min(r.radius, o.radius));
+      if (weight <= 0.0f) return;
+      near.records[near.count] = static_cast<uint32_t>(other);
+      near.weights[near.count++] = weight;
+    };
+    for (int i = 0; i < 9; ++i) add(level, x + i % 3 - 1, y + i / 3 - 1);
+    for (size_t l = 0; l < r.level; ++l) {
+      const int share = levels_[l].step / level.step;
+      for (int i = 0; i < 4; ++i)
+        add(levels_[l], (x - share / 2) / share + (i & 1), (y - share / 2) / share + (i >> 1));
+    }
+  });
+}
+
+void ViewRecords::findLight(const SurfaceLight& light) {
+  const auto& reflected = light.reflected();
+  values_.assign(records_.size(), vec3(0.0f));
+  if (reflected.empty()) return;
+  tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
+    values_[k] = gatheredLight(linksOf(k), reflected) / static_cast<float>(kRays);
+  });
+  std::vector<vec3> before;
+  for (int pass = 0; pass < kSmoothPasses; ++pass) {
+    before = values_;
+    tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
+      const Near& near = near_[k];
+      float weights = 1.0f;
+      for (size_t i = 0; i < near.count; ++i) {
+        values_[k] += near.weights[i] * before[near.records[i]];
+        weights += near.weights[i];
+      }
+      values_[k] /= weights;
+    });
+  }
+  const auto& onMesh = light.values();
+  tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
+    const Record& r = records_[k];
+    vec3 sum(0.0f);
+    for (int c = 0; c < 3; ++c)
+      sum += r.onMesh.weights[c] * onMesh[r.onMesh.values[static_cast<size_t>(c)]];
+    values_[k] = glm::mix(values_[k], sum, r.trust);
+  });
+}
+
+bool ViewRecords::find(int x, int y, const SurfaceSpot& spot, Point& out) const {
+  // The five with the largest weights. That of the fifth is taken off the others, so that the
+  // light is continuous where another record becomes one of the four.
+  std::array<float, 5> weights{};
+  std::array<uint32_t, 5> records{};
+  around(x, y, spot, levels_.size(), [&](uint32_t record, float weight) {
+    for (size_t k = 0; k < weights.size(); ++k) {
+      if (!(weight > weights[k])) continue;
+      std::swap(weight, weights[k]);
+      std::swap(record, records[k]);
+    }
+  });
+  if (weights[0] < kLeastWeight) return false;
+  float sum = 0.0f;
+  for (size_t k = 0; k < 4; ++k) {
+    out.records[k] = records[k];
+    out.weights[k] = weights[k] - (weights[0] > weights[4] ? weights[4] : 0.0f);
+    sum += out.weights[k];
+  }
+  for (float& w : out.weights) w /= sum;
+  return true;
+}
+
+size_t ViewRecords::bytes() const {
+  return records_.size() * (sizeof(Record) + sizeof(Near) + sizeof(vec3)) +
+         links_.size() * sizeof(GatherLink);
+}
+
+}  // namespace lamplighter

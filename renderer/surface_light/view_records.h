@@ -1,0 +1,99 @@
+// Records of irradiance at pixels of a view, where the elements of the surface mesh are too coarse:
+// in corners, at contacts, on detailed meshes. They gather light from the mesh along kept rays, so
+// other light on the mesh traces none. Distances between records follow Ward, Rubinstein and Clear,
+// "A Ray Tracing Solution for Diffuse Interreflection" (1988).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/backends/gbuffer_view.h"
+#include "renderer/surface_light/gather_rays.h"
+#include "renderer/surface_light/surface_light.h"
+
+namespace lamplighter {
+
+class ViewRecords {
+ public:
+  static constexpr size_t kRays = 64;  // of a record
+
+  // The records that show the light of a pixel, and their weights, whose sum is 1.
+  struct Point {
+    std::array<uint32_t, 4> records{};
+    std::array<float, 4> weights{};
+  };
+
+  void restart(const View& view, uint32_t seed);
+  // After SurfaceLight::update(). `gbuffer`: of the view. Chooses records anew if `isOther`, that
+  // is, if anything but the light on the mesh changed; traces up to about `most` rays, but at least
+  // those of the first pixels, and finds their light.
+  void update(const GatherScene& scene, const SurfaceLight& light, const GBufferView& gbuffer,
+              bool isOther, uint64_t most);
+  // Whether all records have all rays.
+  bool isDone() const { return isDone_; }
+  // Of records that are known to be missing. More may follow from what these see.
+  uint64_t raysLeft() const { return raysLeft_; }
+  // Whether other records were chosen by the last update.
+  bool choseAnew() const { return choseAnew_; }
+  uint64_t rays() const { return traced_; }  // by the last update
+
+  // Those of a pixel that shows this spot. False if there are none.
+  bool find(int x, int y, const SurfaceSpot& spot, Point& out) const;
+  // Irradiance of bounced light by record [W/m²].
+  const std::vector<vec3>& values() const { return values_; }
+  size_t bytes() const;
+
+ private:
+  struct Record {
+    SurfaceSpot spot;
+    MeshPoint onMesh;
+    float trust = 0.0f;   // of onMesh
+    float radius = 0.0f;  // within which its light may be used [m]
+    uint64_t stale = 0;   // a bit for each ray that is out of date
+    uint32_t object = 0, place = 0, cell = 0;
+    uint8_t level = 0, set = 0;
+
+    bool isSame(const Record& other) const {
+      return spot.position == other.spot.position && object == other.object && place == other.place;
+    }
+  };
+  struct Near {
+    std::array<uint32_t, 16> records{};
+    std::array<float, 16> weights{};  // relative to that of the record itself
+    uint32_t count = 0;
+  };
+  struct Level {
+    int step = 0, width = 0, height = 0;
+    std::vector<int32_t> records;  // by cell; kNone
+  };
+
+  void choose(const GatherScene& scene, const SurfaceLight& light, const GBufferView& gbuffer,
+              uint64_t most);
+  void trace(const GatherScene& scene, std::span<const uint32_t> records);
+  void findNear();
+  void findLight(const SurfaceLight& light);
+  float weightOf(const Record& record, const SurfaceSpot& spot) const;
+  float pixelSize(const vec3& position) const;
+  std::span<const vec3> directionsOf(const Record& r) const {
+    return std::span(directions_).subspan(r.set * kRays, kRays);
+  }
+  std::span<GatherLink> linksOf(size_t record) {
+    return std::span(links_).subspan(record * kRays, kRays);
+  }
+  // Calls take(record, weight) for the records of the first `levels` levels around a pixel.
+  template <typename Take>
+  void around(int x, int y, const SurfaceSpot& spot, size_t levels, const Take& take) const;
+
+  View view_;
+  std::array<Level, 4> levels_;
+  std::vector<vec3> directions_;  // by set
+  std::vector<Record> records_;
+  std::vector<GatherLink> links_;  // by record, then by ray
+  std::vector<Near> near_;
+  std::vector<vec3> values_;
+  uint64_t traced_ = 0, raysLeft_ = 0;
+  bool isDone_ = false, choseAnew_ = false;
+};
+
+}  // namespace lamplighter
