@@ -22,6 +22,11 @@ class ViewDisplayTest : public test::SessionFixture {
     ASSERT_TRUE(session_.runAction("render.set technique=" + technique));
     settle();
   }
+  // Light samples carry bounced light.
+  void useSamples() {
+    ASSERT_TRUE(session_.runAction("render.set indirect=samples"));
+    settle();
+  }
   const ViewPicture* shown() const { return session_.display().picture().get(); }
 };
 
@@ -95,6 +100,7 @@ TEST_F(ViewDisplayTest, TheStatusShowsWhatAViewNeeds) {
 }
 
 TEST_F(ViewDisplayTest, ALightSampleIsChosenByNumber) {
+  useSamples();
   setTechnique("visibility");
   session_.runAction("view.occlusion");
   settle();
@@ -116,6 +122,7 @@ TEST_F(ViewDisplayTest, ALightSampleIsChosenByNumber) {
 }
 
 TEST_F(ViewDisplayTest, AClickOnAMarkOnlyChoosesItsLightSample) {
+  useSamples();
   const auto lights = session_.inspect().lights;
   size_t target = lights.size();  // a sample whose mark is visible
   for (size_t i = 1; i < lights.size(); ++i) {
@@ -155,6 +162,7 @@ TEST_F(ViewDisplayTest, PendingSamplesAreMarked) {
 // Each frame estimates the number of frames until the picture is settled. The estimate is exact if
 // all frames do the same work.
 TEST_F(ViewDisplayTest, TheEstimateOfFramesUntilSettledIsExact) {
+  useSamples();
   for (const int antialias : {1, 4}) {
     session_.runAction("render.set antialias=" + std::to_string(antialias));
     session_.runAction("render.set updates=3");

@@ -25,6 +25,7 @@ Settings settingsOf(int block, const std::string& technique = "light_maps", int 
   s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("vpls", vpls);
+  s.set("indirect", std::string("samples"));
   s.set("updates", vpls);
   s.set("antialias", 1);
   s.set("lights_per_pass", lightsPerPass);

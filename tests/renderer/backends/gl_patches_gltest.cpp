@@ -25,6 +25,7 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass = 
   Settings s;
   s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
+  s.set("indirect", std::string("samples"));
   s.set("vpls", vpls);
   s.set("updates", 150);
   s.set("antialias", 1);

@@ -277,6 +277,7 @@ class GlManyLights : public test::GlTest {
     test::addRectangleLight(scene, vec3(0, 3.9f, 0), vec2(1.5f), vec3(12.0f));
     Settings settings;
     settings.set("vpls", 128);
+    settings.set("indirect", std::string("samples"));
     settings.set("bounces", 1);
     FrameRenderer renderer(std::move(backend));
     return test::renderSettled(renderer, scene, SceneChanges::all(), viewOfBoxes(), settings)

@@ -25,6 +25,7 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, b
   s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("vpls", vpls);
+  s.set("indirect", std::string("samples"));
   s.set("updates", vpls);
   s.set("antialias", 1);
   s.set("block", std::string("1"));

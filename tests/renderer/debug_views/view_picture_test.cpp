@@ -35,6 +35,7 @@ class Views : public testing::Test {
     test::addRectangleLight(scene_, vec3(0, 4, 0), vec2(0.2f), vec3(100.0f));
     settings_.set("technique", std::string("light_maps"));
     settings_.set("vpls", 24);
+    settings_.set("indirect", std::string("samples"));
     settings_.set("map_resolution", 16);
     settings_.set("antialias", 1);
     settings_.set("light_map_texel", 0.5f);

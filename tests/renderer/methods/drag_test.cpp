@@ -26,6 +26,7 @@ struct Room {
     light = test::addRectangleLight(scene, vec3(0.5f, 3.8f, 0.5f), vec2(1, 0.8f), vec3(10));
     settings.set("vpls", 600);
     settings.set("bounces", 2);
+    settings.set("indirect", std::string("samples"));
     settings.set("updates", 80);
     settings.set("map_resolution", 32);
     settings.set("antialias", 1);

@@ -20,6 +20,7 @@ struct FineMapsGl : test::GlTest, test::AssetRoom {
   void SetUp() override {
     test::GlTest::SetUp();
     settings.set("vpls", 40);
+    settings.set("indirect", std::string("samples"));
     settings.set("updates", 16);
     settings.set("antialias", 1);
     settings.set("map_resolution", 32);

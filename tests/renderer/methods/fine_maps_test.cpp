@@ -24,6 +24,7 @@ struct FineMaps : testing::Test, test::AssetRoom {
   FineMaps() : AssetRoom("pillar_room", 93, 61) {
     settings.set("share_memory", 0);
     settings.set("vpls", 60);
+    settings.set("indirect", std::string("samples"));
     settings.set("updates", 20);
     settings.set("antialias", 1);
     settings.set("map_resolution", kCoarse);

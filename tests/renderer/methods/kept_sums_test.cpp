@@ -31,6 +31,7 @@ Settings settingsOf(const std::string& technique, int vpls) {
   s.set("prt_bounces", technique == "reflecting transfer" ? 4 : 0);
   s.set("block", usesBlocks ? technique.substr(technique.size() - 1) : "1");
   s.set("vpls", vpls);
+  s.set("indirect", std::string("samples"));
   s.set("bounces", 2);
   s.set("updates", 9);
   s.set("map_resolution", 16);

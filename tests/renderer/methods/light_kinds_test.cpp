@@ -134,6 +134,7 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   Settings settings;
   settings.set("vpls", 512);
   settings.set("bounces", 1);
+  settings.set("indirect", std::string("samples"));
   settings.set("updates", 4096);
   settings.set("antialias", 4);
   settings.set("refine", 8192);

@@ -25,6 +25,7 @@ Settings settingsOf(int vpls, const std::string& block) {
   Settings s;
   s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("vpls", vpls);
+  s.set("indirect", std::string("samples"));
   s.set("updates", vpls);
   s.set("bounces", 1);
   s.set("antialias", 1);

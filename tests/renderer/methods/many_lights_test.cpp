@@ -19,6 +19,7 @@ Settings settingsOf(int vpls, int bounces, int updates, int antialias = 1) {
   Settings s;
   s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("vpls", vpls);
+  s.set("indirect", std::string("samples"));
   s.set("bounces", bounces);
   s.set("updates", updates);
   s.set("antialias", antialias);

@@ -22,6 +22,7 @@ struct RefinementGl : test::GlTest {
     box = test::addMesh(scene, test::boxMesh(vec3(0.7f), white), vec3(-0.5f, 0.35f, -0.5f));
     test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
     settings.set("vpls", 100);
+    settings.set("indirect", std::string("samples"));
     settings.set("refine", 2000);
   }
 

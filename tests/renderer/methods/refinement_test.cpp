@@ -31,6 +31,7 @@ struct Refined : testing::Test {
     test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
     settings.set("vpls", 200);
     settings.set("bounces", kBounces);
+    settings.set("indirect", std::string("samples"));
     settings.set("updates", 70);
     settings.set("antialias", 4);
     settings.set("map_resolution", 32);

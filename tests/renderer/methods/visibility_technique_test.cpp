@@ -24,6 +24,7 @@ Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
   s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
+  s.set("indirect", std::string("samples"));
   s.set("block", std::string("1"));
   s.set("vpls", vpls);
   s.set("updates", 150);
