@@ -7,6 +7,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scene_files.h"
@@ -112,6 +113,40 @@ TEST(MeshBounces, EditsLeaveTheBitsOfAFreshStart) {
     s.find(room.light)->area->radiance = vec3(5.0f);
   });
   EXPECT_TRUE(test::sameBits(back, before));
+}
+
+// A floor under posts that are thinner than an element, and a panel close to a wall.
+TEST(MeshBounces, LightAroundSmallObjectsIsCloseToThatOfPaths) {
+  Room room;
+  const int grey = test::addMaterial(room.scene, vec3(0.6f));
+  for (int i = 0; i < 25; ++i)
+    test::addMesh(room.scene, test::boxMesh(vec3(0.04f, 0.9f, 0.04f), grey),
+                  vec3(0.45f * static_cast<float>(i % 5) - 1.5f, -1.05f,
+                       0.45f * static_cast<float>(i / 5) - 1.7f));
+  test::addMesh(room.scene, test::boxMesh(vec3(0.8f, 0.8f, 0.02f), grey),
+                vec3(-0.8f, 0.2f, -1.95f));
+  const auto indirect = [&](const std::string& method, const Settings& settings) {
+    FrameRenderer renderer(makeCpuBackend());
+    SceneChanges changes = SceneChanges::all();
+    GiOutput out;
+    for (int frame = 0; frame < 1000 && !out.settled; ++frame) {
+      FrameRenderer::Request request{room.scene, changes, room.view, method, settings};
+      request.part = LightPart::indirect;
+      out = renderer.render(request);
+      changes = {};
+    }
+    EXPECT_TRUE(out.settled);
+    return out.radiance->pixels();
+  };
+  Settings paths;
+  paths.set("bounces", 2);
+  paths.set("spp", 400);
+  const Image reference = test::blockMeans(indirect("reference", paths), 4);
+  const Image shown = test::blockMeans(indirect(kMethod, meshSettings(2)), 4);
+  const Metrics m = compareImages(shown, reference);
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  EXPECT_LT(m.relRmse, 0.05);
+  EXPECT_NEAR(m.bias, 1.0, 0.02);
 }
 
 TEST(MeshBounces, RefinementWaitsForLightOnSurfaces) {
