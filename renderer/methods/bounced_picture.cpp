@@ -10,27 +10,32 @@ namespace lamplighter {
 
 namespace {
 
-// Rays of a frame: some 40 ms on two cores.
-constexpr uint64_t kRaysAFrame = 300'000;
+// Rays of a frame: some 25 ms on two cores.
+constexpr uint64_t kRaysAFrame = 150'000;
 
 }  // namespace
 
 void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& light,
                             const SurfacePictureOptions& picture) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});
-  if (light_.update(in.scene, changes, in.services.rays(), light, kRaysAFrame)) shown_ = nullptr;
+  hasOtherLight_ = light_.update(in.scene, changes, in.services.rays(), light, kRaysAFrame);
+  if (hasOtherLight_) shown_ = nullptr;
   raysLeft_ = std::max(kRaysAFrame / 4, kRaysAFrame - std::min(kRaysAFrame, light_.counts().rays));
-  if (!(in.view == view_) || light.seed != seed_) {
-    records_.restart(in.view, light.seed);
-    seed_ = light.seed;
-  }
+  const bool isOtherView = !(in.view == view_) || light.seed != seed_;
+  if (isOtherView) records_.restart(in.view, light.seed);
+  records_.outdate(gatherScene(in), light_);
+  isAtRest_ = light_.keptMesh() && !isOtherView;
   // Pixels keep their places on the elements only if nothing of the scene changes.
-  if (light_.keptMesh() && in.view == view_ && picture == options_) return;
+  if (isAtRest_ && picture == options_) return;
   recordsAreOutdated_ = true;
-  view_ = in.view;
-  options_ = picture;
-  plain_ = smooth_ = {};
+  keepsPixels_ = !isOtherView && picture == options_ && !light_.hasOtherElements() &&
+                 !changes.materials && plain_.samples() == 1;
+  if (!keepsPixels_) plain_ = {};
+  smooth_ = {};
   shown_ = nullptr;
+  view_ = in.view;
+  seed_ = light.seed;
+  options_ = picture;
 }
 
 std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
@@ -40,7 +45,8 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
   if (antialias > 1 && smooth_.samples() < antialias && records_.isDone())
     addSample(in, smooth_, antialias, gbufferIsCurrent);
   const int shown = smooth_.samples() == antialias ? antialias : 1;
-  if (shown <= 1 && plain_.samples() == 0) addSample(in, plain_, 1, gbufferIsCurrent);
+  if (shown <= 1 && (plain_.samples() == 0 || keepsPixels_))
+    addSample(in, plain_, 1, gbufferIsCurrent);
   if (shown_ && picture == under_ && shown == antialias_) return shown_;
   Image sum = picture->pixels();
   (shown > 1 ? smooth_ : plain_).addTo(light_.values(), records_.values(), sum);
@@ -56,32 +62,44 @@ int BouncedPicture::framesLeft(int antialias) const {
          (antialias > 1 ? antialias - smooth_.samples() : 0);
 }
 
-// Records wait until samples of the mesh have all rays, because their choice depends on these.
+// Records are chosen when nothing moves and samples of the mesh have all rays, because their choice
+// depends on these.
 void BouncedPicture::updateRecords(const FrameInputs& in, bool& gbufferIsCurrent) {
-  const bool isReady = light_.links().isDone();
-  if (shown_ && records_.isDone() && !recordsAreOutdated_) return;
-  if (!isReady && records_.values().empty()) return;
-  shown_ = nullptr;
-  if (recordsAreOutdated_ || !records_.isDone()) {
-    if (!gbufferIsCurrent) in.backend.renderGBuffer(view_, vec2(0.0f));
-    gbufferIsCurrent = true;
+  const bool isMissing = recordsAreOutdated_ || !records_.isDone();
+  if (isMissing && isAtRest_ && light_.links().isDone()) {
+    showView(in, gbufferIsCurrent);
+    records_.choose(gatherScene(in), light_, in.backend.hostGBuffer(), raysLeft_);
+    recordsAreOutdated_ = false;
+    plain_ = smooth_ = {};
+  } else if (isMissing) {
+    records_.retrace(gatherScene(in), raysLeft_);
+  } else if (!hasOtherLight_) {
+    return;
   }
-  records_.update(gatherScene(in), light_, in.backend.hostGBuffer(), recordsAreOutdated_,
-                  raysLeft_);
-  recordsAreOutdated_ = !isReady;
-  if (!records_.choseAnew()) return;
-  plain_ = smooth_ = {};
+  shown_ = nullptr;
+  records_.findLight(light_);
+}
+
+void BouncedPicture::showView(const FrameInputs& in, bool& gbufferIsCurrent) {
+  if (!gbufferIsCurrent) in.backend.renderGBuffer(view_, vec2(0.0f));
+  gbufferIsCurrent = true;
 }
 
 void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
                                bool& gbufferIsCurrent) {
+  const bool keepsPixels = samples == 1 && std::exchange(keepsPixels_, false);
   if (pixels.samples() == 0) pixels.restart(view_.width, view_.height, samples);
-  if (samples > 1 || !gbufferIsCurrent) {
-    const vec2 shift = samples > 1 ? pixelJitter(pixels.samples(), samples) : vec2(0.0f);
-    in.backend.renderGBuffer(view_, shift);
+  if (samples == 1) {
+    showView(in, gbufferIsCurrent);
+  } else {
+    in.backend.renderGBuffer(view_, pixelJitter(pixels.samples(), samples));
+    gbufferIsCurrent = false;
   }
-  gbufferIsCurrent = samples == 1;
-  pixels.add(gatherScene(in), light_, records_, in.backend.hostGBuffer(), view_.eye, options_);
+  const GBufferView gbuffer = in.backend.hostGBuffer();
+  if (keepsPixels && pixels.samples() == 1)
+    pixels.replaceChanged(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
+  else
+    pixels.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
 }
 
 }  // namespace lamplighter

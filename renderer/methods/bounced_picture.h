@@ -40,6 +40,7 @@ class BouncedPicture {
   GatherScene gatherScene(const FrameInputs& in) const {
     return {in.scene, in.services.rays(), light_.mesh(), light_.cuts()};
   }
+  void showView(const FrameInputs& in, bool& gbufferIsCurrent);
   void updateRecords(const FrameInputs& in, bool& gbufferIsCurrent);
   void addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
                  bool& gbufferIsCurrent);
@@ -50,7 +51,8 @@ class BouncedPicture {
   View view_;
   ViewRecords records_;
   bool recordsAreOutdated_ = true;  // anything but the light of the mesh changed
-  uint64_t raysLeft_ = 0;           // of this frame
+  bool isAtRest_ = false, hasOtherLight_ = false, keepsPixels_ = false;  // of this frame
+  uint64_t raysLeft_ = 0;                                                // of this frame
   uint32_t seed_ = 0;
   SurfacePicture plain_, smooth_;  // without a shift; antialiased
   // What was shown last.

@@ -1,9 +1,11 @@
 #include "renderer/surface_light/surface_picture.h"
 
 #include <algorithm>
+#include <bit>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/random.h"
 #include "renderer/scene/surface.h"
 #include "renderer/surface_light/seen_triangle.h"
 #include "shaders/shared/brdf.h"
@@ -15,6 +17,16 @@ constexpr float kMost = 65535.0f;
 
 uint16_t packed(float share) {
   return static_cast<uint16_t>(std::clamp(share, 0.0f, 1.0f) * kMost + 0.5f);
+}
+
+// Differs between places, but for a chance of 2⁻³².
+uint32_t keyOf(const GBufferPoint& p) {
+  const uint32_t place =
+      hash4(std::bit_cast<uint32_t>(p.position.x), std::bit_cast<uint32_t>(p.position.y),
+            std::bit_cast<uint32_t>(p.position.z), p.object);
+  return hash4(place, p.triangle, std::bit_cast<uint32_t>(p.normal.x),
+               std::bit_cast<uint32_t>(p.normal.y)) |
+         1u;
 }
 
 // π × the share of even light that is reflected towards the eye. A lobe reflects even light as its
@@ -53,13 +65,17 @@ void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
   Point* points = points_.data() + static_cast<size_t>(added_++) * pixels;
   const auto show = [&](int x, int y, Point& out) {
     const GBufferPoint p = gbuffer.at(x, y);
+    const uint32_t key = keyOf(p);
+    if (keepsSame_ && out.key == key) return;
+    out = {};
+    out.key = key;
     const SeenTriangle seen(scene, p);
     MeshPoint at;
     if (!seen.isSound || !in.mesh.find(scene, p.object, p.triangle, seen.isBack, seen.weights, at))
       return;
     const vec3 reflectance = reflectanceOf(scene, p, seen.weights, eye, options);
     out.reflectance = {packed(reflectance.r), packed(reflectance.g), packed(reflectance.b)};
-    if (light.trustAt(at) < 1.0f) {
+    if (!records.isEmpty() && light.trustAt(at) < 1.0f) {
       const uint32_t triangles = scene.objects[p.object].triangleCount();
       ViewRecords::Point found;
       if (records.find(
@@ -72,15 +88,18 @@ void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
         return;
       }
     }
-    in.cuts.keepVisible(scene, in.rays, in.mesh, p.position, at.leaf, at.weights);
     std::ranges::copy(at.values, out.values.begin());
     out.weights = {packed(at.weights.y), packed(at.weights.z), 0};
   };
   tbb::parallel_for(0, height_, [&](int y) {
-    for (int x = 0; x < width_; ++x)
+    for (int x = 0; x < width_; ++x) {
+      Point& out =
+          points[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
       if (gbuffer.isHit(x, y))
-        show(x, y,
-             points[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)]);
+        show(x, y, out);
+      else
+        out = {};
+    }
   });
 }
 

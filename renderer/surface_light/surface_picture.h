@@ -22,9 +22,20 @@ class SurfacePicture {
  public:
   // Forgets all pixels. `samples`: how many G-buffers of this size follow.
   void restart(int width, int height, int samples);
-  // One of them. Pixels where the mesh is too coarse are shown by records.
+  // One of them. Pixels where the mesh is too coarse are shown by records, if there are any.
   void add(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,
            const GBufferView& gbuffer, const vec3& eye, const SurfacePictureOptions& options);
+
+  // Replaces the pixels of the only G-buffer that show another place than before. The mesh and the
+  // records have the same numbers as then.
+  void replaceChanged(const GatherScene& scene, const SurfaceLight& light,
+                      const ViewRecords& records, const GBufferView& gbuffer, const vec3& eye,
+                      const SurfacePictureOptions& options) {
+    keepsSame_ = true;
+    added_ = 0;
+    add(scene, light, records, gbuffer, eye, options);
+    keepsSame_ = false;
+  }
 
   int samples() const { return added_; }
   // Adds the radiance that reflects the irradiance on the mesh, the mean of the samples.
@@ -41,8 +52,10 @@ class SurfacePicture {
     // [1/65535]
     std::array<uint16_t, 3> weights{};
     std::array<uint16_t, 3> reflectance{};
+    uint32_t key = 0;  // of the place that it shows
   };
   int width_ = 0, height_ = 0, samples_ = 0, added_ = 0;
+  bool keepsSame_ = false;
   std::vector<Point> points_;  // by sample, then by pixel
 };
 

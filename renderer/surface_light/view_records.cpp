@@ -93,27 +93,37 @@ void ViewRecords::around(int x, int y, const SurfaceSpot& spot, size_t levels,
   }
 }
 
-void ViewRecords::update(const GatherScene& scene, const SurfaceLight& light,
-                         const GBufferView& gbuffer, bool isOther, uint64_t most) {
-  traced_ = 0;
-  choseAnew_ = false;
+void ViewRecords::outdate(const GatherScene& scene, const SurfaceLight& light) {
   if (light.hasOtherElements()) {
     records_.clear();
+    links_.clear();
+    values_.clear();
     for (Level& level : levels_) level.records.clear();
-  } else if (!light.movedBoxes().empty()) {
-    std::vector<bool> isMoved(scene.mesh.objects(), false);
-    for (const uint32_t o : light.movedObjects()) isMoved[o] = true;
-    tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
-      Record& r = records_[k];
-      if (isMoved[r.object])
-        r.stale = ~uint64_t{0};
-      else
-        markTouched(scene, r.spot, light.movedBoxes(), directionsOf(r), linksOf(k), 0, 1,
-                    {&r.stale, 1});
-    });
+    isDone_ = false;
   }
-  if (isOther || !isDone_) choose(scene, light, gbuffer, most);
-  findLight(light);
+  if (light.movedBoxes().empty()) return;
+  isDone_ = false;
+  std::vector<bool> isMoved(scene.mesh.objects(), false);
+  for (const uint32_t o : light.movedObjects()) isMoved[o] = true;
+  tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
+    Record& r = records_[k];
+    if (isMoved[r.object])
+      r.stale = ~uint64_t{0};
+    else
+      markTouched(scene, r.spot, light.movedBoxes(), directionsOf(r), linksOf(k), 0, 1,
+                  {&r.stale, 1});
+  });
+}
+
+void ViewRecords::retrace(const GatherScene& scene, uint64_t most) {
+  std::vector<uint32_t> stale;
+  uint64_t planned = 0;
+  for (uint32_t r = 0; r < records_.size() && planned < most; ++r) {
+    if (records_[r].stale == 0) continue;
+    stale.push_back(r);
+    planned += static_cast<uint64_t>(std::popcount(records_[r].stale));
+  }
+  trace(scene, stale);
 }
 
 void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
@@ -123,7 +133,7 @@ void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
   std::array<Level, 4> before = levels_;
   for (Level& level : levels_) level.records.clear();
   isDone_ = true;
-  choseAnew_ = true;
+  traced_ = 0;
   raysLeft_ = 0;
   for (size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];

@@ -25,18 +25,21 @@ class ViewRecords {
   };
 
   void restart(const View& view, uint32_t seed);
-  // After SurfaceLight::update(). `gbuffer`: of the view. Chooses records anew if `isOther`, that
-  // is, if anything but the light on the mesh changed; traces up to about `most` rays, but at least
-  // those of the first pixels, and finds their light.
-  void update(const GatherScene& scene, const SurfaceLight& light, const GBufferView& gbuffer,
-              bool isOther, uint64_t most);
+  // After each SurfaceLight::update(): which rays are out of date.
+  void outdate(const GatherScene& scene, const SurfaceLight& light);
+  // Chooses records for the G-buffer of the view and traces up to about `most` rays, but at least
+  // those of the first record. To be called until isDone().
+  void choose(const GatherScene& scene, const SurfaceLight& light, const GBufferView& gbuffer,
+              uint64_t most);
+  // Only traces what is out of date, for frames in which objects move.
+  void retrace(const GatherScene& scene, uint64_t most);
+  // The light of the records. After each of the above.
+  void findLight(const SurfaceLight& light);
   // Whether all records have all rays.
   bool isDone() const { return isDone_; }
   // Of records that are known to be missing. More may follow from what these see.
   uint64_t raysLeft() const { return raysLeft_; }
-  // Whether other records were chosen by the last update.
-  bool choseAnew() const { return choseAnew_; }
-  uint64_t rays() const { return traced_; }  // by the last update
+  bool isEmpty() const { return records_.empty(); }
 
   // Those of a pixel that shows this spot. False if there are none.
   bool find(int x, int y, const SurfaceSpot& spot, Point& out) const;
@@ -68,11 +71,8 @@ class ViewRecords {
     std::vector<int32_t> records;  // by cell; kNone
   };
 
-  void choose(const GatherScene& scene, const SurfaceLight& light, const GBufferView& gbuffer,
-              uint64_t most);
   void trace(const GatherScene& scene, std::span<const uint32_t> records);
   void findNear();
-  void findLight(const SurfaceLight& light);
   float weightOf(const Record& record, const SurfaceSpot& spot) const;
   float pixelSize(const vec3& position) const;
   std::span<const vec3> directionsOf(const Record& r) const {
@@ -93,7 +93,7 @@ class ViewRecords {
   std::vector<Near> near_;
   std::vector<vec3> values_;
   uint64_t traced_ = 0, raysLeft_ = 0;
-  bool isDone_ = false, choseAnew_ = false;
+  bool isDone_ = false;
 };
 
 }  // namespace lamplighter
