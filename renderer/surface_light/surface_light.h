@@ -16,7 +16,7 @@ namespace lamplighter {
 struct SurfaceLightOptions {
   int bounces = 2;
   float edge = 0.25f;    // longest edge of an element where memory allows it [m]
-  int gatherRays = 256;  // of a sample; down to 64 if memory is short
+  int gatherRays = 256;  // of a sample; down to 32 if memory is short
   size_t linkBytes = size_t{64} << 20;
   int mask = 0;  // DirectFactors::Scene
   uint32_t seed = 1;
