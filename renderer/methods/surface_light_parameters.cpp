@@ -20,7 +20,7 @@ const ParameterTable<SurfaceLightParameters>& surfaceLightParameters() {
        "",
        "Rays from each corner of an element that find the bounced light that arrives there. At "
        "least "
-       "64 where link_memory is short.",
+       "32 where link_memory is short.",
        {16, 4096, kLogarithmic},
        ParameterGroup::quality},
       {&P::mask,

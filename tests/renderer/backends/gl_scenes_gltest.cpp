@@ -38,6 +38,7 @@ TEST_P(GlScenes, LookTheSameOnBothBackends) {
     if (node.camera != kNone) view = viewOfCamera(scene, node, 144, 96);
   }
   Settings settings;
+  settings.set("indirect", std::string("samples"));  // on both backends
   settings.set("vpls", 48);
   settings.set("bounces", 1);
   settings.set("antialias", 1);

@@ -51,6 +51,7 @@ TEST_F(LightOnly, PartsAreTheSameOnBothBackends) {
     SCOPED_TRACE(technique);
     Settings settings;
     settings.set("technique", std::string(technique));
+    settings.set("indirect", std::string("samples"));
     settings.set("vpls", 40);
     settings.set("antialias", 1);
     settings.set("corner_light", false);

@@ -53,7 +53,8 @@ struct BumpyRoom {
 // Without `error`, transfer is used for all light and for reflections within the object.
 Settings settingsOf(bool prt, int bounces, float error = 1.0f) {
   Settings s;
-  s.set("share_memory", 0);  // the settled picture is that of the live sums
+  s.set("share_memory", 0);                   // the settled picture is that of the live sums
+  s.set("indirect", std::string("samples"));  // as with transfer
   s.set("prt", prt);
   s.set("prt_error", error);
   s.set("prt_bounces", 4);

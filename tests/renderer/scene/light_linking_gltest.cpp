@@ -32,6 +32,7 @@ TEST_P(GlLinking, LooksTheSameOnBothBackends) {
   scene.find(bulb)->punctual = PunctualLight{PunctualKind::point, vec3(3, 4, 5)};
   const View view = test::lookAt(vec3(0, 4, 4.5f), vec3(0), 128, 80, 0.8f);
   Settings settings;
+  settings.set("indirect", std::string("samples"));
   settings.set("vpls", 64);
   settings.set("bounces", 1);
   settings.set("antialias", 1);

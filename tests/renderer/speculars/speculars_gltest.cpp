@@ -62,6 +62,7 @@ TEST_F(GlSpeculars, OfAHelmetLookAsOnCpu) {
   const RenderScene world = test::renderSceneOf(scene);
   const View view = viewOfBounds(world.bounds, 96, 72);
   Settings settings;
+  settings.set("indirect", std::string("samples"));
   settings.set("vpls", 40);
   settings.set("bounces", 1);
   settings.set("antialias", 1);

@@ -96,6 +96,7 @@ TEST(VisibilityMemory, FollowsTheNumberOfLightsAndTheLimit) {
 TEST(VisibilityMemory, ThePictureStaysTheSame) {
   const test::AssetRoom room("pillar_room", 96, 60);
   Settings settings;
+  settings.set("indirect", std::string("samples"));
   settings.set("vpls", 2000);
   settings.set("bounces", 1);
   settings.set("updates", 4000);
@@ -122,6 +123,7 @@ TEST(VisibilityMemory, IfNothingFitsThePictureIsThatOfNaive) {
     test::addMesh(room.scene, box,
                   vec3(0.1f * static_cast<float>(i % 40), 0.1f, 0.1f * static_cast<float>(i / 40)));
   Settings settings;
+  settings.set("indirect", std::string("samples"));
   settings.set("vpls", 4000);
   settings.set("map_resolution", 16);
   settings.set("settled_map_scale", 1);
