@@ -1,4 +1,5 @@
-// Rooms that are lit by bounced light alone, against the path tracer, with default settings.
+// Rooms that are lit by bounced light alone, against the path tracer, with bounced light on
+// surfaces and else default settings.
 #include <gtest/gtest.h>
 
 #include "renderer/image/metrics.h"
@@ -68,6 +69,7 @@ void expectCloseToPaths(const LitRoom& room) {
   Settings paths = settings;
   paths.set("spp", 2048);
   const Image reference = test::blockMeans(settled(room, "reference", paths), kBlock);
+  settings.set("indirect", std::string("meshes"));
   const Image shown = test::blockMeans(settled(room, "many_lights", settings), kBlock);
   const Metrics m = compareImages(shown, reference);
   testing::Test::RecordProperty("relRmse", std::to_string(m.relRmse));
