@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "renderer/methods/gi_method.h"
+#include "renderer/surface_light/pixels/surface_picture.h"
 #include "renderer/surface_light/surface_light.h"
-#include "renderer/surface_light/surface_picture.h"
 
 namespace lamplighter {
 

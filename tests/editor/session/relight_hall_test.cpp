@@ -41,7 +41,10 @@ TEST(RelightHall, TheScriptAndTheRecordingMakeTheSameDocument) {
   session.open(loadGltf(file).scene, file, {});
   RenderSettings render = session.document().render;
   for (const auto& [name, value] : header["settings"].items())
-    render.values.set(name, value.get<int>());
+    if (value.is_string())
+      render.values.set(name, value.get<std::string>());
+    else
+      render.values.set(name, value.get<int>());
   session.editing().setInitialRender(std::move(render));
   session.renderFrame();
 

@@ -7,7 +7,7 @@
 
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/image/image.h"
-#include "renderer/surface_light/view_records.h"
+#include "renderer/surface_light/pixels/view_records.h"
 
 namespace lamplighter {
 

@@ -1,4 +1,4 @@
-#include "renderer/surface_light/surface_picture.h"
+#include "renderer/surface_light/pixels/surface_picture.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 
 #include "renderer/base/random.h"
 #include "renderer/scene/surface.h"
-#include "renderer/surface_light/seen_triangle.h"
+#include "renderer/surface_light/pixels/seen_triangle.h"
 #include "shaders/shared/brdf.h"
 
 namespace lamplighter {

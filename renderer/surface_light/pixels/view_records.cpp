@@ -1,4 +1,4 @@
-#include "renderer/surface_light/view_records.h"
+#include "renderer/surface_light/pixels/view_records.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,7 @@
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
 #include "renderer/surface_light/gather_rays.h"
-#include "renderer/surface_light/seen_triangle.h"
+#include "renderer/surface_light/pixels/seen_triangle.h"
 
 namespace lamplighter {
 namespace {
