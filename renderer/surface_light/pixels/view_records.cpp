@@ -66,10 +66,6 @@ float ViewRecords::pixelSize(const vec3& position) const {
          static_cast<float>(view_.height);
 }
 
-float ViewRecords::weightOf(const Record& record, const SurfaceSpot& spot) const {
-  return similarity(record.spot, spot, record.radius);
-}
-
 template <typename Take>
 void ViewRecords::around(int x, int y, const SurfaceSpot& spot, size_t levels,
                          const Take& take) const {
@@ -87,7 +83,8 @@ void ViewRecords::around(int x, int y, const SurfaceSpot& spot, size_t levels,
       const int32_t r = level.records[static_cast<size_t>(cy * level.width + cx)];
       if (r < 0) continue;
       const float tent = ((i & 1) != 0 ? u : 1.0f - u) * ((i >> 1) != 0 ? v : 1.0f - v);
-      const float weight = tent * weightOf(records_[static_cast<size_t>(r)], spot);
+      const Record& record = records_[static_cast<size_t>(r)];
+      const float weight = tent * similarity(record.spot, spot, record.radius);
       if (weight > 0.0f) take(static_cast<uint32_t>(r), weight);
     }
   }
@@ -133,7 +130,7 @@ void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
   std::array<Level, 4> before = levels_;
   for (Level& level : levels_) level.records.clear();
   isDone_ = true;
-  traced_ = 0;
+  uint64_t traced = 0;
   raysLeft_ = 0;
   for (size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];
@@ -162,15 +159,21 @@ void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
       isWanted[cell] = covered < kCovered ? 1 : 0;
     });
     level.records.assign(cells, kNone);
-    std::vector<uint32_t> traced;
+    // Where there is no room for all, some all over the picture.
+    const auto count = static_cast<size_t>(std::ranges::count(isWanted, uint8_t{1}));
+    const size_t room = std::min(count, kMostRecords - records_.size());
+    size_t next = 0;
+    std::vector<uint32_t> missing;
     for (size_t cell = 0; cell < cells; ++cell) {
-      if (!isWanted[cell] || records_.size() >= kMostRecords) continue;
+      if (!isWanted[cell]) continue;
+      const size_t n = next++;
+      if (n * room / count == (n + 1) * room / count) continue;
       Record& r = wanted[cell];
       const int32_t was = before[l].records.empty() ? kNone : before[l].records[cell];
       const bool isKnown = was >= 0 && old[static_cast<size_t>(was)].isSame(r);
       r.stale = isKnown ? old[static_cast<size_t>(was)].stale : ~uint64_t{0};
       r.set = setOf(static_cast<int>(cell) % level.width, static_cast<int>(cell) / level.width);
-      const bool hasTime = traced_ < most;
+      const bool hasTime = traced < most;
       if (!hasTime && r.stale != 0) {
         isDone_ = false;
         raysLeft_ += kRays;
@@ -186,10 +189,10 @@ void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
       }
       records_.push_back(r);
       if (r.stale == 0 || !hasTime) continue;
-      traced.push_back(id);
-      traced_ += static_cast<uint64_t>(std::popcount(r.stale));
+      missing.push_back(id);
+      traced += static_cast<uint64_t>(std::popcount(r.stale));
     }
-    trace(scene, traced);
+    trace(scene, missing);
   }
   findNear();
 }

@@ -73,7 +73,6 @@ class ViewRecords {
 
   void trace(const GatherScene& scene, std::span<const uint32_t> records);
   void findNear();
-  float weightOf(const Record& record, const SurfaceSpot& spot) const;
   float pixelSize(const vec3& position) const;
   std::span<const vec3> directionsOf(const Record& r) const {
     return std::span(directions_).subspan(r.set * kRays, kRays);
@@ -92,7 +91,7 @@ class ViewRecords {
   std::vector<GatherLink> links_;  // by record, then by ray
   std::vector<Near> near_;
   std::vector<vec3> values_;
-  uint64_t traced_ = 0, raysLeft_ = 0;
+  uint64_t raysLeft_ = 0;
   bool isDone_ = false;
 };
 

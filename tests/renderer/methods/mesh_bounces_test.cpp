@@ -199,7 +199,7 @@ TEST(MeshBounces, BouncedLightIsCurrentInTheFrameOfAnEdit) {
   // All light is current but for the choice of records, which waits until nothing moves.
   const Metrics m = compareImages(now, fresh);
   RecordProperty("relRmse", std::to_string(m.relRmse));
-  EXPECT_LT(m.relRmse, 0.01);
+  EXPECT_LT(m.relRmse, 1e-4);
   EXPECT_TRUE(test::sameBits(shown(renderer, {}), fresh));
 }
 
