@@ -18,10 +18,11 @@ SHARED_FUNCTION vec3 skyGradient(vec3 zenith, vec3 horizon, vec3 ground, float y
 // The position of a unit direction in an equirectangular picture: (0, 0) is its top left corner,
 // (1, 1) its bottom right one; y is up. With rotation 0, its middle is towards −Z and its right
 // half towards +X; `rotation` turns it about Y [rad], counter-clockwise seen from above.
+// By atan() in both directions: acos() of GPUs has errors of 1e-4.
 SHARED_FUNCTION vec2 skyCoordinates(vec3 d, float rotation) {
   const float kInversePi = 0.318309886f;
   float u = 0.5f * kInversePi * (atan(d.x, -d.z) + rotation) + 0.5f;
-  return vec2(u - floor(u), kInversePi * acos(clamp(d.y, -1.0f, 1.0f)));
+  return vec2(u - floor(u), kInversePi * atan(length(vec2(d.x, d.z)), d.y));
 }
 
 SHARED_END

@@ -20,8 +20,15 @@ TEST_F(GlBackendTest, ReportsThatTheDeviceIsOutOfMemoryOnce) {
   GLint layers = 0, size = 0;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
-  const gl::Texture texture = gl::Texture::make(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(texture.name(), 1, GL_RGBA32F, size, size, layers);  // terabytes
+  const auto takeTerabytes = [&] {
+    const gl::Texture texture = gl::Texture::make(GL_TEXTURE_2D_ARRAY);
+    glTextureStorage3D(texture.name(), 1, GL_RGBA32F, size, size, layers);
+  };
+  takeTerabytes();
+  const bool isRefused = glGetError() == GL_OUT_OF_MEMORY;
+  context().debugLog()->clear();
+  if (!isRefused) GTEST_SKIP() << "this driver promises more memory than there is";
+  takeTerabytes();
   EXPECT_THROW(backend->checkDevice(), DeviceError);
   EXPECT_NO_THROW(backend->checkDevice());
   context().debugLog()->clear();

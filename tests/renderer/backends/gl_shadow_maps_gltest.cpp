@@ -1,4 +1,7 @@
 // Rasterised shadow maps against traced ones, texel by texel.
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/backends/gl/gl_backend.h"
 #include "shaders/shared/vpl_shading.h"
 #include "tests/renderer/gl/gl_test.h"
@@ -16,8 +19,25 @@ struct Difference {
   int texels = 0;
   int covered = 0;  // texels with a hit in the traced map
   int missed = 0;   // of these, texels without a hit in the rasterised map
-  int other = 0;    // texels that differ by more than 0.001
+  int other = 0;    // texels that differ by more than slack()
 };
+
+// By how much a rasterised depth may differ from the traced one. Drivers snap vertices to a
+// subpixel grid of 1/256 texel, and GPUs interpolate depth between the snapped vertices, so a
+// surface may shift by up to 1/128 texel where triangles are narrow.
+float slack(const std::vector<float>& traced, size_t i) {
+  const auto side = static_cast<size_t>(std::lround(std::sqrt(static_cast<double>(traced.size()))));
+  float step = 0.0f;  // the largest to a neighbour with a hit
+  const auto visit = [&](bool exists, size_t neighbour) {
+    if (exists && traced[neighbour] > 0.0f)
+      step = std::max(step, std::abs(traced[neighbour] - traced[i]));
+  };
+  visit(i % side > 0, i - 1);
+  visit(i % side + 1 < side, i + 1);
+  visit(i >= side, i - side);
+  visit(i + side < traced.size(), i + side);
+  return 1e-3f * traced[i] + step / 128.0f;
+}
 
 Difference compare(const std::vector<float>& raster, const std::vector<float>& traced) {
   Difference d;
@@ -25,7 +45,7 @@ Difference compare(const std::vector<float>& raster, const std::vector<float>& t
   for (size_t i = 0; i < traced.size(); ++i) {
     d.covered += traced[i] > 0.0f;
     d.missed += traced[i] > 0.0f && raster[i] == 0.0f;
-    d.other += std::abs(raster[i] - traced[i]) > 1e-3f * traced[i];
+    d.other += std::abs(raster[i] - traced[i]) > slack(traced, i);
   }
   return d;
 }

@@ -87,7 +87,8 @@ TEST_F(GlScan, IsUniformForZerosAndHandlesOneHugeWeight) {
   pass.run(in, 1000, 3, cdf, totals);
   const std::vector<float> shares = test::read(cdf);
   for (size_t i = 0; i <= 1000; ++i) {
-    EXPECT_EQ(shares[i], static_cast<float>(i) / 1000.0f);
+    // GLSL divides with an error of 2.5 ULP.
+    EXPECT_NEAR(shares[i], static_cast<float>(i) / 1000.0f, 5e-7f);
     if (i > 700) {
       EXPECT_EQ(shares[1001 + i], 1.0f);
     } else {

@@ -1,4 +1,5 @@
-// Edits in real levels, seen from inside, at defaults with the budgets of the editor's window:
+// Edits in real levels, seen from inside, at defaults with the budgets of the editor's window, on
+// the cpu backend (levels/) and on the gl backend (levels_gl/):
 // opening, changes of brightness, a lamp that is added, moved and deleted, an object that is
 // hidden, objects that are duplicated, and a flight. The levels are those of ../shared/scenes;
 // without that folder there are none.
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/gl/gl_backend.h"
 #include "renderer/base/data_folder.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -108,6 +110,8 @@ void duplicate(Scene& scene, NodeId id) {
   scene.nodes.push_back(std::move(copy));
 }
 
+using MakeBackend = std::function<std::unique_ptr<Backend>()>;
+
 // An edit, done and undone in turns.
 using Edit = std::function<void(Scene&, bool isDone)>;
 
@@ -142,11 +146,16 @@ class Longest {
   std::string stage_;
 };
 
-void measure(benchmark::State& state, const Level& level, bool startsWithLamp, const Edit& edit) {
-  Opened opened(level, kWidth, kHeight);
+struct Run {
+  const Level& level;
+  MakeBackend makeBackend;
+};
+
+void measure(benchmark::State& state, const Run& run, bool startsWithLamp, const Edit& edit) {
+  Opened opened(run.level, kWidth, kHeight);
   if (startsWithLamp) opened.addLamp();
   Scene& scene = opened.scene;
-  WindowFrames window(makeCpuBackend());
+  WindowFrames window(run.makeBackend());
   window.settle(scene, SceneChanges::all(), opened.view);
   double first = 0.0, rays = 0.0, settledAtOnce = 0.0;
   Longest longest;
@@ -183,12 +192,12 @@ void measure(benchmark::State& state, const Level& level, bool startsWithLamp, c
   state.counters["settled_at_once"] = settledAtOnce / edits;
 }
 
-void open(benchmark::State& state, const Level& level) {
+void open(benchmark::State& state, const Run& run) {
   double first = 0.0;
   for (auto _ : state) {
     const double begin = benchSeconds();
-    const Opened opened(level, kWidth, kHeight);
-    WindowFrames window(makeCpuBackend());
+    const Opened opened(run.level, kWidth, kHeight);
+    WindowFrames window(run.makeBackend());
     const GiOutput out = window.frame(opened.scene, SceneChanges::all(), opened.view);
     first += benchSeconds() - begin;
     if (!out.settled) window.settle(opened.scene, {}, opened.view);
@@ -197,9 +206,9 @@ void open(benchmark::State& state, const Level& level) {
 }
 
 // Forward, with a turn; the mean frame after the first.
-void fly(benchmark::State& state, const Level& level) {
-  Opened opened(level, 640, 360);
-  WindowFrames window(makeCpuBackend());
+void fly(benchmark::State& state, const Run& run) {
+  Opened opened(run.level, 640, 360);
+  WindowFrames window(run.makeBackend());
   window.settle(opened.scene, SceneChanges::all(), opened.view);
   Longest longest;
   for (auto _ : state) {
@@ -213,25 +222,25 @@ void fly(benchmark::State& state, const Level& level) {
   longest.report(state);
 }
 
-void add(const Level& level) {
-  const std::string name = "levels/" + fs::path(level.file).begin()->string() + "/";
-  const auto registered = [&](const char* what, auto run) {
-    return benchmark::RegisterBenchmark((name + what).c_str(), run)
+void add(const std::string& group, const Run& run) {
+  const std::string name = group + "/" + fs::path(run.level.file).begin()->string() + "/";
+  const auto registered = [&](const char* what, auto body) {
+    return benchmark::RegisterBenchmark((name + what).c_str(), body)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
   };
-  registered("open", [&level](benchmark::State& s) { open(s, level); })->Iterations(1);
-  registered("brightness", [&level](benchmark::State& s) {
-    measure(s, level, false, brighten);
+  registered("open", [run](benchmark::State& s) { open(s, run); })->Iterations(1);
+  registered("brightness", [run](benchmark::State& s) {
+    measure(s, run, false, brighten);
   })->Iterations(8);
-  registered("lamp_moved", [&level](benchmark::State& s) {
-    measure(s, level, true, [](Scene& scene, bool isDone) {
+  registered("lamp_moved", [run](benchmark::State& s) {
+    measure(s, run, true, [](Scene& scene, bool isDone) {
       scene.nodes.back().local.translation.x += isDone ? -0.5f : 0.5f;
     });
   })->Iterations(2);
-  registered("lamp_added_and_deleted", [&level](benchmark::State& s) {
+  registered("lamp_added_and_deleted", [run](benchmark::State& s) {
     Node lamp;
-    measure(s, level, true, [&](Scene& scene, bool isDone) {
+    measure(s, run, true, [&](Scene& scene, bool isDone) {
       if (isDone) {
         scene.nodes.push_back(lamp);
       } else {
@@ -240,15 +249,15 @@ void add(const Level& level) {
       }
     });
   })->Iterations(2);
-  registered("object_hidden", [&level](benchmark::State& s) {
-    measure(s, level, true, [](Scene& scene, bool isDone) {
+  registered("object_hidden", [run](benchmark::State& s) {
+    measure(s, run, true, [](Scene& scene, bool isDone) {
       const auto mesh = std::find_if(scene.nodes.rbegin(), scene.nodes.rend(),
                                      [](const Node& n) { return n.mesh != kNone; });
       if (mesh != scene.nodes.rend()) mesh->visible = isDone;
     });
   })->Iterations(2);
-  registered("lamp_duplicated", [&level](benchmark::State& s) {
-    measure(s, level, true, [](Scene& scene, bool isDone) {
+  registered("lamp_duplicated", [run](benchmark::State& s) {
+    measure(s, run, true, [](Scene& scene, bool isDone) {
       if (isDone) {
         scene.nodes.pop_back();
       } else {
@@ -256,9 +265,9 @@ void add(const Level& level) {
       }
     });
   })->Iterations(2);
-  registered("object_duplicated", [&level](benchmark::State& s) {
-    const NodeId largest = largestInView(Opened(level, kWidth, kHeight));
-    measure(s, level, false, [largest](Scene& scene, bool isDone) {
+  registered("object_duplicated", [run](benchmark::State& s) {
+    const NodeId largest = largestInView(Opened(run.level, kWidth, kHeight));
+    measure(s, run, false, [largest](Scene& scene, bool isDone) {
       if (isDone) {
         scene.nodes.pop_back();
       } else {
@@ -266,12 +275,16 @@ void add(const Level& level) {
       }
     });
   })->Iterations(2);
-  registered("flight", [&level](benchmark::State& s) { fly(s, level); })->Iterations(60);
+  registered("flight", [run](benchmark::State& s) { fly(s, run); })->Iterations(60);
 }
 
 [[maybe_unused]] const bool kRegistered = [] {
-  for (const Level& level : kLevels)
-    if (fs::exists(fileOf(level))) add(level);
+  for (const Level& level : kLevels) {
+    if (fs::exists(fileOf(level))) {
+      add("levels", {level, makeCpuBackend});
+      add("levels_gl", {level, [] { return makeGlBackend(); }});
+    }
+  }
   return true;
 }();
 
