@@ -92,7 +92,7 @@ vec3 DirectLight::irradiance(const ReceivingPlace& at) const {
     if (emitter.kind == EmitterKind::punctual) {
       light.factor.raysTo(std::span(&spot, 1), at.leftOutBy, 0, rays);
       for (const LightRay& r : rays)
-        if (!rays_.occluded(r.ray)) sum += emitter.gain * r.irradiance;
+        if (!rays_.occluded(r.ray)) sum += emitter.brightness() * r.irradiance;
       continue;
     }
     const float factor = light.factor.unshadowed(spot);

@@ -111,8 +111,9 @@ std::vector<uint8_t> DirectFactors::matchColumns(const Scene& now, bool isNewMes
   const std::vector<VplId> ids = emitterIds(now.lights);
   std::vector<Column> before = std::move(columns_);
   columns_ = std::vector<Column>(ids.size());
-  const bool isSameSky = now.lights.referenceSky().sky() == sky_;
-  sky_ = now.lights.referenceSky().sky();
+  const Sky sky = now.lights.unitSky();
+  const bool isSameSky = sky == sky_;
+  sky_ = sky;
   const size_t leaves = now.mesh.leaves();
   std::vector<uint8_t> isNew(ids.size(), 1);
   std::vector<size_t> oldOf(ids.size());
@@ -121,7 +122,6 @@ std::vector<uint8_t> DirectFactors::matchColumns(const Scene& now, bool isNewMes
     const Emitter& e = now.lights.emitters()[i];
     Column& column = columns_[i];
     column.id = ids[i];
-    column.reference = e.reference;
     column.isColoured = EmitterFactor(now.scene, now.lights, i, ids[i], now.seed).isColoured();
     if (e.kind == EmitterKind::punctual)
       column.light = withoutBrightness(now.scene.punctuals[e.punctual]);
@@ -132,8 +132,8 @@ std::vector<uint8_t> DirectFactors::matchColumns(const Scene& now, bool isNewMes
     isSameOrder = isSameOrder && old == i;
     oldOf[i] = old;
     if (!isNewMesh && now.mask == mask_ && old < before.size() &&
-        before[old].light == column.light && before[old].reference == column.reference &&
-        before[old].isColoured == column.isColoured && (e.kind != EmitterKind::sky || isSameSky) &&
+        before[old].light == column.light && before[old].isColoured == column.isColoured &&
+        (e.kind != EmitterKind::sky || isSameSky) &&
         !(e.kind == EmitterKind::surface && isMoved[e.object])) {
       column.factors = std::move(before[old].factors);
       isNew[i] = 0;
@@ -394,10 +394,10 @@ void DirectFactors::sum(const LightSet& lights, std::vector<vec3>& out) const {
     vec3 sum(0.0f);
     for (size_t e = 0; e < columns_.size(); ++e) {
       const Column& column = columns_[e];
-      const vec3& gain = lights.emitters()[e].gain;
-      sum += column.isColoured ? gain * vec3(column.factors[3 * k], column.factors[3 * k + 1],
-                                             column.factors[3 * k + 2])
-                               : gain * column.factors[k];
+      const vec3 brightness = lights.emitters()[e].brightness();
+      sum += column.isColoured ? brightness * vec3(column.factors[3 * k], column.factors[3 * k + 1],
+                                                   column.factors[3 * k + 2])
+                               : brightness * column.factors[k];
     }
     out[k] = sum;
   });

@@ -1,4 +1,4 @@
-// The direct light of each emitter on each element, at its reference brightness: a number per
+// The direct light of each emitter on each element, per unit of its brightness: a number per
 // emitter, so that brightness and colour need no ray.
 #pragma once
 
@@ -48,7 +48,6 @@ class DirectFactors {
   struct Column {
     VplId id;
     RenderPunctual light;  // without its brightness; of punctual lights
-    float reference = 0.0f;
     bool isColoured = false;
     std::vector<float> factors;
   };
@@ -79,7 +78,7 @@ class DirectFactors {
   size_t words_ = 0, staleLeaves_ = 0;
   uint32_t next_ = 0;  // the element at which the next call goes on
   bool changed_ = false;
-  Sky sky_;  // at its reference brightness
+  Sky sky_;  // at unit brightness
   int mask_ = 0;
   Blockers blockers_;  // if there are masks
   size_t computed_ = 0, masked_ = 0, open_ = 0;

@@ -99,15 +99,14 @@ LightRay EmitterFactor::fromSurface(const SurfaceSpot& spot, const vec2& u) cons
   const vec3 way = p.position + side * rayEpsilon(p.position) * p.normal - from;
   const float distance = glm::length(way);
   if (!(distance > 0.0f)) return {};
-  return {{from, 0.0f, way / distance, distance}, light_.reference * factor * p.share};
+  return {{from, 0.0f, way / distance, distance}, factor * p.share};
 }
 
 LightRay EmitterFactor::fromPunctual(const SurfaceSpot& spot) const {
   const RenderPunctual& light = scene_.punctuals[light_.punctual];
   const vec3 from = spot.rayOrigin();
   if (light.light.kind == PunctualKind::directional)
-    return {{from, 0.0f, -light.direction},
-            vec3(light_.reference * cosineOf(spot, -light.direction))};
+    return {{from, 0.0f, -light.direction}, vec3(cosineOf(spot, -light.direction))};
   const vec3 d = light.position - spot.position;
   const float d2 = glm::dot(d, d);
   if (!(d2 > 0.0f)) return {};
@@ -118,12 +117,13 @@ LightRay EmitterFactor::fromPunctual(const SurfaceSpot& spot) const {
     factor *= light.light.profile->at(glm::transpose(light.axes) * -w);
   else if (light.light.kind == PunctualKind::spot)
     factor *= SpotCone(light.light).at(-glm::dot(w, light.direction));
-  return {{from, 0.0f, w, distance}, vec3(light_.reference * factor)};
+  return {{from, 0.0f, w, distance}, vec3(factor)};
 }
 
 LightRay EmitterFactor::fromSun(const SurfaceSpot& spot, const vec2& u) const {
   const SkyMap::Light sun = lights_.referenceSky().sun(light_.skySun - 1, u);
-  return {{spot.rayOrigin(), 0.0f, sun.towards}, cosineOf(spot, sun.towards) * sun.irradiance};
+  return {{spot.rayOrigin(), 0.0f, sun.towards},
+          cosineOf(spot, sun.towards) * sun.irradiance / light_.reference};
 }
 
 }  // namespace lamplighter

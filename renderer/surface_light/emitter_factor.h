@@ -1,4 +1,4 @@
-// The direct light that one emitter gives to an element, at its reference brightness.
+// The direct light that one emitter gives to an element, per unit of its brightness.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace lamplighter {
 // Light that arrives unless the ray is blocked.
 struct LightRay {
   Ray ray;
-  vec3 irradiance{0.0f};  // [W/m²], at the reference brightness of a white light
+  vec3 irradiance{0.0f};  // [W/m²] of a white light, per unit of Emitter::brightness()
   uint32_t spot = 0;      // on which it falls
 };
 

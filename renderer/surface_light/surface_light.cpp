@@ -142,12 +142,12 @@ void SurfaceLight::findLight(int bounces, int most) {
   state_.direct.resize(3 * mesh_.leaves());
   direct_.sum(lights_, state_.direct);
   state_.smoothing.fillCorners(mesh_, state_.direct);
-  vec3 gain(0.0f);
+  vec3 brightness(0.0f);
   for (const Emitter& e : lights_.emitters())
-    if (e.kind == EmitterKind::sky && e.skySun == 0) gain = e.gain;
+    if (e.kind == EmitterKind::sky && e.skySun == 0) brightness = e.brightness();
   state_.sky.resize(mesh_.samples());
-  for (size_t s = 0; s < state_.sky.size(); ++s) state_.sky[s] = gain * sky_[s];
-  if (gain != vec3(0.0f)) state_.smoothing.apply(mesh_, state_.sky);
+  for (size_t s = 0; s < state_.sky.size(); ++s) state_.sky[s] = brightness * sky_[s];
+  if (brightness != vec3(0.0f)) state_.smoothing.apply(mesh_, state_.sky);
   bounceLight(mesh_, links_, state_, bounces, most, bounced_, reflected_);
 }
 
@@ -191,8 +191,9 @@ void SurfaceLight::findMixed() {
 void SurfaceLight::findSky(const RenderScene& scene, std::span<const uint32_t> samples) {
   sky_.resize(mesh_.samples(), vec3(0.0f));
   std::vector<uint32_t> all;
-  if (!(seenSky_ == lights_.referenceSky().sky())) {
-    seenSky_ = lights_.referenceSky().sky();
+  const Sky sky = lights_.unitSky();
+  if (!(seenSky_ == sky)) {
+    seenSky_ = sky;
     all.resize(mesh_.samples());
     std::iota(all.begin(), all.end(), 0u);
     samples = all;
@@ -215,7 +216,7 @@ void SurfaceLight::findSky(const RenderScene& scene, std::span<const uint32_t> s
       if (links[i].leaf == GatherLink::kSky)
         sum += skyWithoutSuns(lights_.referenceSky(),
                               gatherDirection(spots[i % spots.size()], directions[i]));
-    sky_[sample] = kPi / static_cast<float>(links.size()) * sum;
+    sky_[sample] = kPi / static_cast<float>(links.size()) * sum / lights_.skyReference();
   });
 }
 

@@ -84,8 +84,8 @@ class SurfaceLight {
   std::vector<uint32_t> moved_;
   std::vector<Bounds> boxes_;
   bool hasOtherElements_ = false;
-  std::vector<vec3> sky_;  // by sample: what rays see of the sky, at its reference brightness
-  Sky seenSky_;            // the sky of it
+  std::vector<vec3> sky_;  // by sample: what rays see of the sky, per unit of its brightness
+  Sky seenSky_;            // the sky of it, at unit brightness
   std::vector<uint8_t> isUnsmoothed_;  // by sample: traced since smoothing was found
   bool isDone_ = false, keptMesh_ = false;
   Counts counts_;

@@ -129,7 +129,7 @@ LightSet::LightSet(const RenderScene& s, const LightSet& before) {
 }
 
 void LightSet::addSky(const RenderScene& s) {
-  const float factor = referenceBrightness(s.nominalSky.factor());
+  const float factor = skyReference_ = referenceBrightness(s.nominalSky.factor());
   const vec3 actual = s.sky.isBlack() ? vec3(0.0f) : s.sky.factor();
   referenceSky_ = SkySampler(s.nominalSky.withFactor(factor));
   for (uint32_t sun = 0; sun <= referenceSky_.sunCount(); ++sun) {
@@ -145,6 +145,10 @@ void LightSet::addSky(const RenderScene& s) {
     e.referenceFlux = luminance(flux);
     if (e.referenceFlux > 0.0f) emitters_.push_back(std::move(e));
   }
+}
+
+Sky LightSet::unitSky() const {
+  return skyReference_ > 0.0f ? referenceSky_.sky().withFactor(1.0f) : Sky();
 }
 
 int LightSet::chooseSurface(float u, float& probability) const {

@@ -27,6 +27,8 @@ struct Emitter {
   // is that of the scene.
   float reference = 0.0f;
   vec3 gain{0.0f};
+  // That of the scene, exactly, because the reference is a power of two.
+  vec3 brightness() const { return gain * reference; }
   float referenceFlux = 0.0f;  // luminance of the flux at the reference brightness [W]
   float area = 0.0f;           // surface: m²
   bool bothSides = false;      // surface
@@ -70,6 +72,10 @@ class LightSet {
   const SkySampler& sky() const { return sky_; }
   // The sky at its reference brightness.
   const SkySampler& referenceSky() const { return referenceSky_; }
+  // Of its emitters; 0 without a sky.
+  float skyReference() const { return skyReference_; }
+  // The sky at unit brightness: the same after any change of brightness.
+  Sky unitSky() const;
   float sceneRadius() const { return radius_; }
   vec3 sceneCentre() const { return centre_; }
 
@@ -80,6 +86,7 @@ class LightSet {
   std::vector<int> emitterOfObject_;
   AliasTable choice_;
   SkySampler sky_, referenceSky_;
+  float skyReference_ = 0.0f;
   vec3 centre_{0.0f};
   float radius_ = 0.0f;
 };
