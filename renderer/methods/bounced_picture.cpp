@@ -16,11 +16,14 @@ constexpr uint64_t kRaysAFrame = 150'000;
 }  // namespace
 
 void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& light,
-                            const SurfacePictureOptions& picture) {
+                            const SurfacePictureOptions& picture, float pace) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});
-  hasOtherLight_ = light_.update(in.scene, changes, in.services.rays(), light, kRaysAFrame);
+  const bool isLive = !changes.none() || !(in.view == view_);
+  const auto most = static_cast<uint64_t>((isLive ? std::min(pace, 1.0f) : 1.0f) *
+                                          static_cast<float>(kRaysAFrame));
+  hasOtherLight_ = light_.update(in.scene, changes, in.services.rays(), light, most);
   if (hasOtherLight_) shown_ = nullptr;
-  raysLeft_ = std::max(kRaysAFrame / 4, kRaysAFrame - std::min(kRaysAFrame, light_.counts().rays));
+  raysLeft_ = std::max(most / 4, most - std::min(most, light_.counts().rays));
   const bool isOtherView = !(in.view == view_) || light.seed != seed_;
   if (isOtherView) records_.restart(in.view, light.seed);
   records_.outdate(gatherScene(in), light_);

@@ -14,9 +14,10 @@ class BouncedPicture {
  public:
   // To be called with the changes of each frame, also of those that do not show the light.
   void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
-  // Goes on with the light, by a limited number of rays.
+  // Goes on with the light, by a limited number of rays. `pace`: share of that number, up to 1, in
+  // a frame in which anything changes.
   void update(const FrameInputs& in, const SurfaceLightOptions& light,
-              const SurfacePictureOptions& picture);
+              const SurfacePictureOptions& picture, float pace = 1.0f);
 
   // `picture` plus bounced light, the mean of `antialias` shifted pictures (1: without a shift).
   // Each frame adds one of them; until they are complete it is without a shift. `gbufferIsCurrent`:

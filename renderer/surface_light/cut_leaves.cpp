@@ -48,14 +48,23 @@ uint64_t CutLeaves::update(const RenderScene& scene, const RayCaster& rays, cons
   if (!isNewMesh && boxes.empty()) return 0;
   std::vector<bool> isMoved(mesh.objects(), false);
   for (const uint32_t o : movedObjects) isMoved[o] = true;
+  // Objects that are far from what moved have no element near it.
+  std::vector<bool> isFar(mesh.objects(), false);
+  const vec3 lift(kHeight * mesh.edge());
+  for (uint32_t o = 0; o < mesh.objects() && !isNewMesh; ++o) {
+    const Bounds& b = scene.objects[o].bounds;
+    isFar[o] = !isMoved[o] && std::ranges::none_of(boxes, [&](const Bounds& box) {
+      return touches({b.min - lift, b.max + lift}, box);
+    });
+  }
   std::atomic<uint64_t> traced = 0;
   tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
     const auto leaf = static_cast<uint32_t>(k);
-    if (mesh.objectOfLeaf(leaf) == SurfaceMesh::kUnused || mesh.isCluster(leaf)) return;
+    const uint32_t object = mesh.objectOfLeaf(leaf);
+    if (object == SurfaceMesh::kUnused || isFar[object] || mesh.isCluster(leaf)) return;
     const Corners corners = cornersOf(scene, mesh, leaf);
     const auto isNear = [&](const Bounds& b) { return touches(corners.bounds, b); };
-    if (!isNewMesh && !isMoved[mesh.objectOfLeaf(leaf)] && std::ranges::none_of(boxes, isNear))
-      return;
+    if (!isNewMesh && !isMoved[object] && std::ranges::none_of(boxes, isNear)) return;
     mayDiffer_[k] = 1;
     isCut_[k] = 0;
     for (size_t c = 0; c < 3 && !isCut_[k]; ++c) {

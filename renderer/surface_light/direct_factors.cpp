@@ -26,11 +26,19 @@ constexpr uint32_t kProbeRays = 8;
 constexpr float kLarge = 0.3f;  // longest side [m]
 constexpr float kLift = 0.04f;  // of rays along a surface [edges of elements]
 
-// Of so many elements one shows the light of all until that of each is found.
-constexpr uint32_t kSpread = 8;
+// Of so many elements one shows the light of all until that of each is found: of more where they
+// are many for the rays of a call. An element of a new light takes about kRaysALeader.
+constexpr uint32_t kLeastSpread = 8, kMostSpread = 32;
+constexpr uint64_t kRaysALeader = 6;
 
-uint32_t leaderOf(const SurfaceMesh& mesh, uint32_t leaf) {
-  return leaf - (leaf - mesh.part(mesh.objectOfLeaf(leaf)).firstLeaf) % kSpread;
+uint32_t spreadOf(const SurfaceMesh& mesh, uint64_t mostRays) {
+  uint32_t spread = kLeastSpread;
+  while (spread < kMostSpread && kRaysALeader * mesh.leaves() / spread > mostRays) spread *= 2;
+  return spread;
+}
+
+uint32_t leaderOf(const SurfaceMesh& mesh, uint32_t leaf, uint32_t spread) {
+  return leaf - (leaf - mesh.part(mesh.objectOfLeaf(leaf)).firstLeaf) % spread;
 }
 
 // Where the light of an element is found.
@@ -185,7 +193,7 @@ uint64_t DirectFactors::update(const Scene& now, bool isNewMesh,
   wasMixed_.assign(now.isMixed.begin(), now.isMixed.end());
   const std::vector<uint32_t> chosen = choose(work, mostRays);
   tbb::parallel_for(size_t{0}, chosen.size(), [&](size_t k) { find(work, chosen[k]); });
-  if (hasNew && !isDone()) spread(work);
+  if (hasNew && !isDone()) spread(work, spreadOf(now.mesh, mostRays));
   changed_ = changed_ || !chosen.empty();
   computed_ = work.computed;
   masked_ = work.masked;
@@ -221,7 +229,7 @@ void DirectFactors::outdate(const Work& work, const std::vector<bool>& isMoved,
   });
 }
 
-// The elements whose light is found in this call: of new emitters at least one of kSpread.
+// The elements whose light is found in this call: of new emitters at least the leaders.
 std::vector<uint32_t> DirectFactors::choose(const Work& work, uint64_t mostRays) {
   const SurfaceMesh& mesh = work.now.mesh;
   const auto leaves = static_cast<uint32_t>(mesh.leaves());
@@ -235,8 +243,10 @@ std::vector<uint32_t> DirectFactors::choose(const Work& work, uint64_t mostRays)
     isChosen[leaf] = 1;
     planned += 3 * stale;
   };
+  const uint32_t spread = spreadOf(mesh, mostRays);
   for (uint32_t leaf = 0; hasNew && leaf < leaves; ++leaf)
-    if (mesh.objectOfLeaf(leaf) != SurfaceMesh::kUnused && leaderOf(mesh, leaf) == leaf) take(leaf);
+    if (mesh.objectOfLeaf(leaf) != SurfaceMesh::kUnused && leaderOf(mesh, leaf, spread) == leaf)
+      take(leaf);
   const uint32_t first = next_ < leaves ? next_ : 0;
   for (uint32_t i = 0; i < leaves && planned < mostRays; ++i) {
     next_ = (first + i) % leaves;
@@ -369,12 +379,12 @@ void DirectFactors::find(Work& work, uint32_t leaf) {
 }
 
 // Gives the light of new emitters that is not found yet that of an element near it.
-void DirectFactors::spread(const Work& work) {
+void DirectFactors::spread(const Work& work, uint32_t elements) {
   const SurfaceMesh& mesh = work.now.mesh;
   tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
     const auto leaf = static_cast<uint32_t>(k);
     if (mesh.objectOfLeaf(leaf) == SurfaceMesh::kUnused) return;
-    const uint32_t leader = leaderOf(mesh, leaf);
+    const uint32_t leader = leaderOf(mesh, leaf, elements);
     for (size_t e = 0; e < columns_.size(); ++e) {
       if (!work.isNew[e] || !isStale(k, e)) continue;
       const size_t channels = columns_[e].isColoured ? 3 : 1;

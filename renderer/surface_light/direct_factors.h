@@ -59,7 +59,7 @@ class DirectFactors {
   void find(Work& work, uint32_t leaf);
   static uint64_t findPartial(const Work& work, size_t emitter, uint32_t leaf, uint32_t count,
                               std::array<vec3, 3>& corners, size_t& seenRays);
-  void spread(const Work& work);
+  void spread(const Work& work, uint32_t elements);
 
   // One bit for each emitter.
   std::span<uint64_t> staleOf(size_t leaf) {

@@ -49,7 +49,6 @@ class GatherLinks {
   void restart(const SurfaceMesh& mesh, int rays, uint32_t seed);
   // Other elements have the numbers of these objects now, or had them; links of the others stay.
   void renew(const SurfaceMesh& mesh, std::span<const uint32_t> objects);
-  bool isEmpty() const { return links_.empty(); }
 
   // After objects moved: all rays of their samples, and those of other samples that touch one of
   // the boxes, which contain the objects before and after, are out of date.

@@ -63,9 +63,10 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   moved_.clear();
   boxes_.clear();
   hasOtherElements_ = false;
-  const bool isSame = options == options_ && changes.none() && !links_.isEmpty();
+  const bool isSame = options == options_ && changes.none() && isStarted_;
   if (isSame && isDone_) return false;
-  const bool isFirst = links_.isEmpty() || changes.rebuilt || options.seed != options_.seed;
+  const bool isFirst = !isStarted_ || changes.rebuilt || options.seed != options_.seed;
+  isStarted_ = true;
   const bool hasOtherOptions = !(options == options_);
   options_ = options;
   lights_ = LightSet(scene, lights_);
@@ -114,7 +115,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   const bool isReady = links_.isDone() && direct_.isDone();
   isDone_ = false;
   if (!isLive && !isReady && links_.stage() == stage && !(isCurrent && !wasCurrent)) return false;
-  const bool isLinear = changes.onlyGains() && !isNew;
+  const bool isLinear = changes.onlyBrightness() && !isNew;
   const bool hasTime = mostRays == kAllRays || !isLive || isLinear ||
                        mesh_.usedSamples() * static_cast<size_t>(links_.rays()) <= kManyLinks;
   findLight(options.bounces,

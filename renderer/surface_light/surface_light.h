@@ -87,7 +87,7 @@ class SurfaceLight {
   std::vector<vec3> sky_;  // by sample: what rays see of the sky, per unit of its brightness
   Sky seenSky_;            // the sky of it, at unit brightness
   std::vector<uint8_t> isUnsmoothed_;  // by sample: traced since smoothing was found
-  bool isDone_ = false, keptMesh_ = false;
+  bool isStarted_ = false, isDone_ = false, keptMesh_ = false;
   Counts counts_;
 };
 

@@ -280,11 +280,12 @@ TEST_F(CommandLine, SetChangesADeclaredParameter) {
 }
 
 TEST_F(CommandLine, EachShortcutFlagSetsTheParameterOfItsName) {
-  // --set is before the scene, which shows that it takes only one word.
+  // --set is before the scene, which shows that it takes only one word. With light samples alone
+  // each of these parameters matters.
   const auto pixels = [&](const std::string& flag, const std::string& assignment) {
     const ProcessResult r =
         runLamplighter({"render", "--set", assignment, kScene, "-o", file("a.exr"), "--size",
-                        "24x16", "--backend", "cpu", flag});
+                        "24x16", "--backend", "cpu", "--set", "indirect=samples", flag});
     EXPECT_EQ(r.code, 0) << r.err;
     return readImage(file("a.exr")).pixels;
   };

@@ -34,7 +34,7 @@ struct ManyLightsParameters : LightSumParameters,
                               PathParameters,
                               FrameBudgetParameters,
                               SurfaceLightParameters {
-  ManyLightsIndirect indirect = ManyLightsIndirect::samples;
+  ManyLightsIndirect indirect = ManyLightsIndirect::automatic;
   int vpls = 300;  // direct and indirect ones
   float directShare = 0.5f;
   int importance = 8;  // candidates per indirect VPL; 1: all are used

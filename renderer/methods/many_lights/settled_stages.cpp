@@ -164,9 +164,11 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
   if (!options.useMeshes()) return meshes_.forget();
   meshes_.outdate(in.changes);
   if (in.part == LightPart::direct) return;
-  meshes_.update(in, options.surfaceLight(options.meshBounces, options.seed),
-                 {in.lightOnly, options.speculars, options.leastRoughness});
-  const int samples = out.settled && options.antialias > 1 ? options.antialias : 1;
+  meshes_.update(
+      in, options.surfaceLight(options.meshBounces, options.seed),
+      {in.lightOnly, options.speculars, options.leastRoughness},
+      static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates));
+  const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
   if (!meshes_.isDone(options.antialias)) refinement_.restart();
   out.settled = out.settled && meshes_.isDone(options.antialias);
