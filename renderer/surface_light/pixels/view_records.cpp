@@ -28,7 +28,8 @@ constexpr float kOffPlane = 4.0f;
 constexpr float kCovered = 0.3f;
 constexpr float kLeastWeight = 1e-4f;
 constexpr int kSmoothPasses = 4;
-// Light is averaged over records within so many radii.
+// Light is averaged over records within so many radii, at least beside each other: corners have
+// records of small radii, and 64 rays see little of a small bright spot.
 constexpr float kSmoothRadius = 1.5f;
 
 // Where it could be used if it were a record of the finest level [pixels].
@@ -224,7 +225,9 @@ void ViewRecords::findNear() {
       const int32_t other = at.records[static_cast<size_t>(cy * at.width + cx)];
       if (other < 0 || static_cast<size_t>(other) == k || near.count == near.records.size()) return;
       const Record& o = records_[static_cast<size_t>(other)];
-      const float weight = similarity(r.spot, o.spot, kSmoothRadius * std::min(r.radius, o.radius));
+      const float least = static_cast<float>(level.step) * pixelSize(r.spot.position);
+      const float radius = std::max(std::min(r.radius, o.radius), least);
+      const float weight = similarity(r.spot, o.spot, kSmoothRadius * radius);
       if (weight <= 0.0f) return;
       near.records[near.count] = static_cast<uint32_t>(other);
       near.weights[near.count++] = weight;
