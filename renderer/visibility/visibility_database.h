@@ -238,7 +238,8 @@ class VisibilityDatabase {
   // By slot: part of the waiting column was computed with the present positions of the movers.
   std::vector<uint8_t> knowsNow_;
   bool useClusters_ = true;
-  int most_ = -1;  // largest number of partial lights on a patch that is not divided
+  // Largest number of partial lights on a patch that is not divided. Without lights none is.
+  int most_ = std::numeric_limits<int>::max();
   size_t mostBytes_ = std::numeric_limits<size_t>::max();
   size_t levels_ = kAllLevels;  // number of tree levels that may have entries of their own; the
                                 // first are the roots

@@ -1,6 +1,7 @@
 // The memory limit of the visibility database: patches are divided less, and no entry becomes
 // wrong.
 #include <iostream>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,32 @@ TEST(VisibilityMemory, FollowsTheNumberOfLightsAndTheLimit) {
   const VisibilityDatabase plenty = fresh(16 * kMebibyte, all);
   EXPECT_EQ(kept.counts().divided, plenty.counts().divided);
   EXPECT_EQ(coarser(kept, plenty), 0u);
+}
+
+// Patches that are asked for before there are lights.
+TEST(VisibilityMemory, LightsMayComeLaterAndGo) {
+  const Room room;
+  VisibilityDatabase fresh, kept;
+  for (VisibilityDatabase* database : {&fresh, &kept})
+    database->setScene(room.scene, test::everythingRebuilt());
+  PatchDemand none{false, {}}, demand{false, {}};
+  for (const ObjectPatches& patches : kept.patches()) {
+    none.levels.emplace_back(patches.patches.size(), uint8_t{0});
+    auto& levels = demand.levels.emplace_back(none.levels.back());
+    for (const int root : patches.roots) levels[static_cast<size_t>(root)] = 5;
+  }
+  kept.ask(none);
+  kept.ask(demand);
+  kept.answer(room.scene, std::numeric_limits<uint64_t>::max());
+  room.fill(fresh, 200);
+  fresh.ask(demand);
+  fresh.answer(room.scene, std::numeric_limits<uint64_t>::max());
+  for (const size_t lights : {0, 200, 0, 200}) {
+    room.fill(kept, lights);
+    if (lights == 0) continue;
+    EXPECT_EQ(coarser(kept, fresh), 0u);
+    EXPECT_EQ(coarser(fresh, kept), 0u);
+  }
 }
 
 TEST(VisibilityMemory, ThePictureStaysTheSame) {
