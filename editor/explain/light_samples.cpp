@@ -24,6 +24,13 @@ VplSet ownSamples(const RenderScene& scene, const RayCaster& rays, const Setting
   return generateVpls(scene, rays, LightSet(scene), counts);
 }
 
+// Whether a sky sends light, apart from its suns.
+bool hasSky(const RenderScene& scene) {
+  return std::ranges::any_of(LightSet(scene).emitters(), [](const Emitter& e) {
+    return e.kind == EmitterKind::sky && e.skySun == 0 && luminance(e.flux) > 0.0f;
+  });
+}
+
 }  // namespace
 
 LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene,
@@ -34,12 +41,17 @@ LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene
       inspection.lights.empty() ? kOwnClamp : manyLightsParameters().read(settings).clampDistance;
   for (const LightSample& light : inspection.lights)
     if (light.isLive) out.samples.push_back({light.vpl, light.id});
-  const bool haveBounced = std::ranges::any_of(
+  const bool lackAll = inspection.lights.empty();
+  const bool lackBounced = std::ranges::none_of(
       inspection.lights, [](const LightSample& light) { return light.id.bounce > 0; });
-  if (haveBounced || (!inspection.lights.empty() && pathParameters().read(settings).bounces == 0))
-    return out;
-  for (const SceneVpl& made : ownSamples(scene, rays, settings).vpls)
-    if (inspection.lights.empty() || made.id.bounce > 0) out.samples.push_back({made.vpl, made.id});
+  const bool lackSky = inspection.lightsLeaveOutSky && hasSky(scene);
+  const int bounces = pathParameters().read(settings).bounces;
+  if (!lackAll && !lackSky && (!lackBounced || bounces == 0)) return out;
+  for (const SceneVpl& made : ownSamples(scene, rays, settings).vpls) {
+    const bool isOfSky = made.id.light == kNoNode && made.isSample;
+    if (lackAll || (made.id.bounce > 0 ? lackBounced : lackSky && isOfSky))
+      out.samples.push_back({made.vpl, made.id});
+  }
   return out;
 }
 

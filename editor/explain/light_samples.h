@@ -21,7 +21,7 @@ struct LightSamples {
 
 // The samples of the method, so that the explanation fits its picture. For a method without
 // samples, such as the reference, it creates many samples with the method's number of bounces;
-// where light on surfaces carries bounced light, it adds those of bounced light.
+// where surfaces carry bounced light or that of the sky, it adds those.
 LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene,
                           const RayCaster& rays, const Settings& settings);
 

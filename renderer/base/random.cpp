@@ -31,4 +31,17 @@ vec3 sampleSphere(vec2 u) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
+vec3 sampleVisibleNormal(const vec3& eye, float alpha, vec2 u) {
+  const vec3 v = glm::normalize(vec3(alpha * eye.x, alpha * eye.y, eye.z));
+  const float across = v.x * v.x + v.y * v.y;
+  const vec3 t1 = across > 0.0f ? vec3(-v.y, v.x, 0.0f) / std::sqrt(across) : vec3(1, 0, 0);
+  const vec3 t2 = glm::cross(v, t1);
+  const float r = std::sqrt(u.x), phi = 2.0f * kPi * u.y;
+  const float x = r * std::cos(phi);
+  const float s = 0.5f * (1.0f + v.z);
+  const float y = (1.0f - s) * std::sqrt(1.0f - x * x) + s * r * std::sin(phi);
+  const vec3 n = x * t1 + y * t2 + std::sqrt(std::max(0.0f, 1.0f - x * x - y * y)) * v;
+  return glm::normalize(vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
+}
+
 }  // namespace lamplighter

@@ -42,4 +42,10 @@ vec3 sampleCosineHemisphere(vec2 u);
 // A direction on the sphere with density 1/4π.
 vec3 sampleSphere(vec2 u);
 
+// A half vector of a GGX lobe that is visible from the eye (E. Heitz, "Sampling the GGX
+// Distribution of Visible Normals", JCGT 7(4), 2018): stretches the lobe to a hemisphere and
+// samples its projected disc. Both in the frame of the normal (+Z). `alpha`: square of the
+// roughness.
+vec3 sampleVisibleNormal(const vec3& eye, float alpha, vec2 u);
+
 }  // namespace lamplighter

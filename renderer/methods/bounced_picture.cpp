@@ -53,6 +53,7 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
   if (shown_ && picture == under_ && shown == antialias_) return shown_;
   Image sum = picture->pixels();
   (shown > 1 ? smooth_ : plain_).addTo(light_.values(), records_.values(), sum);
+  if (shown > 1) lobes_.addTo(in.scene, light_, sum);
   under_ = picture;
   antialias_ = shown;
   shown_ = std::make_shared<HostImage>(std::move(sum));
@@ -80,7 +81,7 @@ void BouncedPicture::updateRecords(const FrameInputs& in, bool& gbufferIsCurrent
     return;
   }
   shown_ = nullptr;
-  records_.findLight(light_);
+  records_.findLight(in.scene, light_);
 }
 
 void BouncedPicture::showView(const FrameInputs& in, bool& gbufferIsCurrent) {
@@ -91,7 +92,10 @@ void BouncedPicture::showView(const FrameInputs& in, bool& gbufferIsCurrent) {
 void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
                                bool& gbufferIsCurrent) {
   const bool keepsPixels = samples == 1 && std::exchange(keepsPixels_, false);
-  if (pixels.samples() == 0) pixels.restart(view_.width, view_.height, samples);
+  if (pixels.samples() == 0) {
+    pixels.restart(view_.width, view_.height, samples);
+    if (samples > 1) lobes_.restart(view_, samples, seed_);
+  }
   if (samples == 1) {
     showView(in, gbufferIsCurrent);
   } else {
@@ -102,7 +106,8 @@ void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, in
   if (keepsPixels && pixels.samples() == 1)
     pixels.replaceChanged(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
   else
-    pixels.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
+    pixels.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_, samples > 1);
+  if (samples > 1) lobes_.add(gatherScene(in), gbuffer, options_);
 }
 
 }  // namespace lamplighter

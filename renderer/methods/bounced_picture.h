@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "renderer/methods/gi_method.h"
+#include "renderer/surface_light/pixels/pixel_lobes.h"
 #include "renderer/surface_light/pixels/surface_picture.h"
 #include "renderer/surface_light/surface_light.h"
 
@@ -34,7 +35,9 @@ class BouncedPicture {
   // Estimate of the frames until isDone(), without further changes.
   int framesLeft(int antialias) const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
-  size_t pictureBytes() const { return records_.bytes() + plain_.bytes() + smooth_.bytes(); }
+  size_t pictureBytes() const {
+    return records_.bytes() + plain_.bytes() + smooth_.bytes() + lobes_.bytes();
+  }
   void forget() { *this = BouncedPicture(); }
 
  private:
@@ -47,7 +50,7 @@ class BouncedPicture {
                  bool& gbufferIsCurrent);
 
   SurfaceLight light_;
-  RenderSceneChanges unseen_;  // since the last update
+  RenderSceneChanges unseen_;           // since the last update
   SurfacePictureOptions options_;
   View view_;
   ViewRecords records_;
@@ -56,6 +59,7 @@ class BouncedPicture {
   uint64_t raysLeft_ = 0;                                                // of this frame
   uint32_t seed_ = 0;
   SurfacePicture plain_, smooth_;  // without a shift; antialiased
+  PixelLobes lobes_;               // of smooth_
   // What was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;
   int antialias_ = 0;

@@ -85,6 +85,8 @@ struct InspectedLink {
 // null or empty.
 struct Inspection {
   std::span<const LightSample> lights;  // in an order that does not change with edits
+  // They leave out the light of the sky, but for its suns: surfaces have it.
+  bool lightsLeaveOutSky = false;
   std::shared_ptr<const PatchView> patches;
   std::shared_ptr<const TexelView> texels;
   std::function<TransferState(uint32_t object)> transfer;

@@ -90,8 +90,9 @@ void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
                          : static_cast<int>(std::lround(share * static_cast<float>(total)));
   std::vector<SampleShare> directShares, indirectShares;
   for (const Emitter& e : emitters) {
-    directShares.push_back(shareOf(scene, e));
-    indirectShares.push_back({e.referenceFlux, 1, false});
+    const bool isLeftOut = counts_.withoutSky && e.kind == EmitterKind::sky && e.skySun == 0;
+    directShares.push_back(isLeftOut ? SampleShare() : shareOf(scene, e));
+    indirectShares.push_back({isLeftOut ? 0.0f : e.referenceFlux, 1, false});
   }
   const SampleCounts directCounts = shareSamples(directShares, direct);
   const int candidates = std::max(counts_.candidates, 1);

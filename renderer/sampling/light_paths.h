@@ -55,6 +55,7 @@ class LightPaths {
                          const VplCounts& counts);
 
   const LightSet& lights() const { return lightSet_; }
+  const VplCounts& counts() const { return counts_; }
   // All VPLs, with new direct ones: sorted by emitter, direct ones first. At the reference
   // brightness of lights (light_gains.h). Suns are not divided into tiles.
   VplSet set(const RenderScene& scene) const;

@@ -25,7 +25,8 @@ vec3 gatheredLight(std::span<const GatherLink> links, const ReflectedLight& refl
 }
 
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
-                 int bounces, int most, std::vector<vec3>& out, ReflectedLight& reflected) {
+                 int bounces, int most, SurfaceLightPart shown, std::vector<vec3>& out,
+                 ReflectedLight& reflected) {
   out.assign(mesh.values(), vec3(0.0f));
   std::vector<vec3> incoming(mesh.samples(), vec3(0.0f));  // sky and bounced light so far
   reflected.assign(12 * mesh.leaves(), 0.0f);
@@ -48,6 +49,10 @@ void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const Surfac
       out[s] = gatheredLight(ends, reflected) / static_cast<float>(ends.size());
     });
     state.smoothing.apply(mesh, out);
+  }
+  for (size_t s = 0; s < incoming.size(); ++s) {
+    if (shown == SurfaceLightPart::sky) out[s] = state.sky[s];
+    if (shown == SurfaceLightPart::both) out[s] += state.sky[s];
   }
   // Vertices of small triangles.
   tbb::parallel_for(size_t{0}, mesh.objects(), [&](size_t o) {

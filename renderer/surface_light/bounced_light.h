@@ -9,6 +9,9 @@
 
 namespace lamplighter {
 
+// Bounced light, and what comes straight from the sky, without its suns.
+enum class SurfaceLightPart { bounced, sky, both };
+
 // What the light of the elements depends on besides the links. By element or by sample.
 struct SurfaceState {
   std::vector<vec3> albedo;  // by element: ρ, its mean
@@ -28,9 +31,11 @@ vec3 gatheredLight(std::span<const GatherLink> links, const ReflectedLight& refl
 
 // Irradiance [W/m²] by bounced light: what other surfaces reflect after 1 to `bounces` bounces.
 // Buried samples have the mean of their neighbours. `most`: links of a sample that are used for the
-// last bounce; earlier ones use a quarter, because their noise is averaged once more. `out`: by
-// value (SurfaceMesh::values()). `reflected`: what elements reflect before the last bounce.
+// last bounce; earlier ones use a quarter, because their noise is averaged once more. `out`: the
+// part that is shown, by value (SurfaceMesh::values()). `reflected`: what elements reflect before
+// the last bounce.
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
-                 int bounces, int most, std::vector<vec3>& out, ReflectedLight& reflected);
+                 int bounces, int most, SurfaceLightPart shown, std::vector<vec3>& out,
+                 ReflectedLight& reflected);
 
 }  // namespace lamplighter

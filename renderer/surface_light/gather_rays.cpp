@@ -18,6 +18,26 @@ uint8_t byteOf(float weight) {
   return static_cast<uint8_t>(std::clamp(weight, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
+// A sphere around what changed, seen from a sample: a cone of directions around +Z of the sample.
+struct Cone {
+  vec3 axis{0.0f};
+  float cosine = -1.0f;  // −1: all directions
+
+  // None if all of it is below the surface.
+  static std::optional<Cone> of(const SurfaceSpot& spot, const vec3& centre, float radius) {
+    const vec3 way = centre - spot.rayOrigin();
+    const vec3 local = gatherFrame(spot).toLocal(way);
+    if (local.z < -radius) return std::nullopt;
+    const float distance = glm::length(way);
+    if (distance <= radius) return Cone{};
+    const float sine = radius / distance;
+    return Cone{local / distance, std::sqrt(1.0f - sine * sine) - 1e-4f};
+  }
+  bool contains(const vec3& direction) const { return glm::dot(direction, axis) >= cosine; }
+};
+
+}  // namespace
+
 GatherLink linkTo(const GatherScene& in, const Hit& hit, const Ray& ray) {
   const RenderScene& scene = in.scene;
   GatherLink link;
@@ -43,26 +63,6 @@ GatherLink linkTo(const GatherScene& in, const Hit& hit, const Ray& ray) {
   }
   return link;
 }
-
-// A sphere around what changed, seen from a sample: a cone of directions around +Z of the sample.
-struct Cone {
-  vec3 axis{0.0f};
-  float cosine = -1.0f;  // −1: all directions
-
-  // None if all of it is below the surface.
-  static std::optional<Cone> of(const SurfaceSpot& spot, const vec3& centre, float radius) {
-    const vec3 way = centre - spot.rayOrigin();
-    const vec3 local = gatherFrame(spot).toLocal(way);
-    if (local.z < -radius) return std::nullopt;
-    const float distance = glm::length(way);
-    if (distance <= radius) return Cone{};
-    const float sine = radius / distance;
-    return Cone{local / distance, std::sqrt(1.0f - sine * sine) - 1e-4f};
-  }
-  bool contains(const vec3& direction) const { return glm::dot(direction, axis) >= cosine; }
-};
-
-}  // namespace
 
 uint64_t traceGatherRays(const GatherScene& scene, std::span<const SurfaceSpot> spots,
                          std::span<const vec3> directions, std::span<const uint64_t> wanted,

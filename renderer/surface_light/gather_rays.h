@@ -17,6 +17,9 @@ struct GatherScene {
   const CutLeaves& cuts;
 };
 
+// What a ray from a surface sees. No hit: the sky.
+GatherLink linkTo(const GatherScene& scene, const Hit& hit, const Ray& ray);
+
 // Traces the rays whose bit in `wanted` is set and keeps what they see in `links`. Ray i leaves
 // from spot i modulo their number. Returns the number of rays.
 uint64_t traceGatherRays(const GatherScene& scene, std::span<const SurfaceSpot> spots,

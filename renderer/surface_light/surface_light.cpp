@@ -143,13 +143,13 @@ void SurfaceLight::findLight(int bounces, int most) {
   state_.direct.resize(3 * mesh_.leaves());
   direct_.sum(lights_, state_.direct);
   state_.smoothing.fillCorners(mesh_, state_.direct);
-  vec3 brightness(0.0f);
+  skyBrightness_ = vec3(0.0f);
   for (const Emitter& e : lights_.emitters())
-    if (e.kind == EmitterKind::sky && e.skySun == 0) brightness = e.brightness();
+    if (e.kind == EmitterKind::sky && e.skySun == 0) skyBrightness_ = e.brightness();
   state_.sky.resize(mesh_.samples());
-  for (size_t s = 0; s < state_.sky.size(); ++s) state_.sky[s] = brightness * sky_[s];
-  if (brightness != vec3(0.0f)) state_.smoothing.apply(mesh_, state_.sky);
-  bounceLight(mesh_, links_, state_, bounces, most, bounced_, reflected_);
+  for (size_t s = 0; s < state_.sky.size(); ++s) state_.sky[s] = skyBrightness_ * sky_[s];
+  if (skyBrightness_ != vec3(0.0f)) state_.smoothing.apply(mesh_, state_.sky);
+  bounceLight(mesh_, links_, state_, bounces, most, options_.part, bounced_, reflected_);
 }
 
 float SurfaceLight::trustAt(const MeshPoint& point) const {
@@ -195,6 +195,7 @@ void SurfaceLight::findSky(const RenderScene& scene, std::span<const uint32_t> s
   const Sky sky = lights_.unitSky();
   if (!(seenSky_ == sky)) {
     seenSky_ = sky;
+    ++skyVersion_;
     all.resize(mesh_.samples());
     std::iota(all.begin(), all.end(), 0u);
     samples = all;
@@ -203,22 +204,30 @@ void SurfaceLight::findSky(const RenderScene& scene, std::span<const uint32_t> s
     const uint32_t sample = samples[k];
     const uint32_t object = mesh_.objectOfSample(sample);
     sky_[sample] = vec3(0.0f);
-    if (object == SurfaceMesh::kUnused || seenSky_.isBlack() ||
-        isLeftOut(scene.objects[object].leftOutBy, scene.skyLink))
-      return;
-    const auto links = links_.of(sample);
-    const auto directions = links_.directionsOf(sample);
-    if (std::ranges::find(links, GatherLink::kSky, &GatherLink::leaf) == links.end()) return;
+    if (object == SurfaceMesh::kUnused) return;
     std::vector<SurfaceSpot> spots;
     for (const SurfacePlace& p : mesh_.placesOfSample(sample))
       spots.push_back(spotAt(scene, object, p));
-    vec3 sum(0.0f);
-    for (size_t i = 0; i < links.size(); ++i)
-      if (links[i].leaf == GatherLink::kSky)
-        sum += skyWithoutSuns(lights_.referenceSky(),
-                              gatherDirection(spots[i % spots.size()], directions[i]));
-    sky_[sample] = kPi / static_cast<float>(links.size()) * sum / lights_.skyReference();
+    sky_[sample] = skyAlong(scene, object, spots, links_.directionsOf(sample), links_.of(sample));
   });
+}
+
+vec3 SurfaceLight::skyTowards(const vec3& direction) const {
+  if (seenSky_.isBlack()) return vec3(0.0f);
+  return skyWithoutSuns(lights_.referenceSky(), direction) / lights_.skyReference();
+}
+
+vec3 SurfaceLight::skyAlong(const RenderScene& scene, uint32_t object,
+                            std::span<const SurfaceSpot> spots, std::span<const vec3> directions,
+                            std::span<const GatherLink> links) const {
+  if (seenSky_.isBlack() || isLeftOut(scene.objects[object].leftOutBy, scene.skyLink))
+    return vec3(0.0f);
+  vec3 sum(0.0f);
+  for (size_t i = 0; i < links.size(); ++i)
+    if (links[i].leaf == GatherLink::kSky)
+      sum += skyWithoutSuns(lights_.referenceSky(),
+                            gatherDirection(spots[i % spots.size()], directions[i]));
+  return kPi / static_cast<float>(links.size()) * sum / lights_.skyReference();
 }
 
 }  // namespace lamplighter

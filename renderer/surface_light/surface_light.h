@@ -20,6 +20,7 @@ struct SurfaceLightOptions {
   size_t linkBytes = size_t{64} << 20;
   int mask = 0;  // DirectFactors::Scene
   uint32_t seed = 1;
+  SurfaceLightPart part = SurfaceLightPart::bounced;
   bool operator==(const SurfaceLightOptions&) const = default;
 };
 
@@ -46,10 +47,21 @@ class SurfaceLight {
   bool keptMesh() const { return keptMesh_; }
   void forget() { *this = SurfaceLight(); }
 
-  // Irradiance of bounced light by value of the mesh [W/m²]. SurfacePicture shows it.
+  // Irradiance by value of the mesh [W/m²]: the part of the options. SurfacePicture shows it.
   const std::vector<vec3>& values() const { return bounced_; }
   // What elements reflect, for further points that gather light.
   const ReflectedLight& reflected() const { return reflected_; }
+  // Irradiance of the sky without its suns at a point of an object along its known links
+  // (`directions`: of these), per unit of skyBrightness() [W/m²]. Ray i left spot i modulo their
+  // number.
+  vec3 skyAlong(const RenderScene& scene, uint32_t object, std::span<const SurfaceSpot> spots,
+                std::span<const vec3> directions, std::span<const GatherLink> links) const;
+  // Its radiance, per unit of skyBrightness().
+  vec3 skyTowards(const vec3& direction) const;
+  vec3 skyBrightness() const { return skyBrightness_; }
+  // Differs if skyAlong() does for the same links.
+  uint32_t skyVersion() const { return skyVersion_; }
+  SurfaceLightPart part() const { return options_.part; }
   // How well the mesh shows the light at a point, from 0 to 1: not where surfaces are near compared
   // with an element, nor on elements that are cut by walls or stand for many small triangles.
   float trustAt(const MeshPoint& point) const;
@@ -86,6 +98,8 @@ class SurfaceLight {
   bool hasOtherElements_ = false;
   std::vector<vec3> sky_;  // by sample: what rays see of the sky, per unit of its brightness
   Sky seenSky_;            // the sky of it, at unit brightness
+  uint32_t skyVersion_ = 0;
+  vec3 skyBrightness_{0.0f};
   std::vector<uint8_t> isUnsmoothed_;  // by sample: traced since smoothing was found
   bool isStarted_ = false, isDone_ = false, keptMesh_ = false;
   Counts counts_;

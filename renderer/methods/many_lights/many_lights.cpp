@@ -380,6 +380,7 @@ LightSampleTable ManyLights::takePart(const FrameInputs& in, const Options& opti
 Inspection ManyLights::inspect() const {
   Inspection out;
   out.lights = lights_.table().samples;
+  out.lightsLeaveOutSky = paths_.counts().withoutSky;
   if (visibility_) out.patches = std::make_shared<DatabasePatches>(*visibility_);
   if (visibility_ && lightMaps_)
     out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);

@@ -52,6 +52,7 @@ VplCounts ManyLightsOptions::counts() const {
   counts.bounces = bounces;
   counts.seed = static_cast<uint32_t>(seed);
   counts.candidates = importance;
+  counts.withoutSky = useMeshes();
   counts.sunMaps = sunMaps;
   return counts;
 }

@@ -17,7 +17,8 @@ struct ManyLightsOptions : ManyLightsParameters {
 
   // Bounces of light that is kept on surfaces; 0: none is. `bounces` are those of light samples.
   int meshBounces = 0;
-  bool useMeshes() const { return meshBounces > 0; }
+  // They show the sky, too, without its suns.
+  bool useMeshes() const { return indirect == ManyLightsIndirect::meshes; }
 
   bool useVisibility() const { return technique != ManyLightsTechnique::naive; }
   bool useLightMaps() const { return technique == ManyLightsTechnique::lightMaps; }

@@ -163,10 +163,19 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
                            GiOutput& out, ManyLightsStats& stats) {
   if (!options.useMeshes()) return meshes_.forget();
   meshes_.outdate(in.changes);
-  if (in.part == LightPart::direct) return;
+  const auto& emitters = paths_.lights().emitters();
+  const bool showsSky =
+      in.part != LightPart::indirect && std::ranges::any_of(emitters, [](const Emitter& e) {
+        return e.kind == EmitterKind::sky && e.skySun == 0;
+      });
+  const bool showsBounces = in.part != LightPart::direct && options.meshBounces > 0;
+  if (!showsSky && !showsBounces) return;
+  SurfaceLightOptions light = options.surfaceLight(options.meshBounces, options.seed);
+  light.part = showsSky && showsBounces ? SurfaceLightPart::both
+               : showsSky               ? SurfaceLightPart::sky
+                                        : SurfaceLightPart::bounced;
   meshes_.update(
-      in, options.surfaceLight(options.meshBounces, options.seed),
-      {in.lightOnly, options.speculars, options.leastRoughness},
+      in, light, {in.lightOnly, options.speculars, options.leastRoughness},
       static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);

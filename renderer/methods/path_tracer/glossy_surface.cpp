@@ -8,23 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// Samples the half vectors visible from the eye (E. Heitz, "Sampling the GGX Distribution of
-// Visible Normals", JCGT 7(4), 2018): stretches the lobe to a hemisphere and samples its projected
-// disc.
-vec3 sampleVisibleNormal(const vec3& eye, float alpha, vec2 u) {
-  const vec3 v = glm::normalize(vec3(alpha * eye.x, alpha * eye.y, eye.z));
-  const float across = v.x * v.x + v.y * v.y;
-  const vec3 t1 = across > 0.0f ? vec3(-v.y, v.x, 0.0f) / std::sqrt(across) : vec3(1, 0, 0);
-  const vec3 t2 = glm::cross(v, t1);
-  const float r = std::sqrt(u.x), phi = 2.0f * kPi * u.y;
-  const float x = r * std::cos(phi);
-  const float s = 0.5f * (1.0f + v.z);
-  const float y = (1.0f - s) * std::sqrt(1.0f - x * x) + s * r * std::sin(phi);
-  const vec3 n = x * t1 + y * t2 + std::sqrt(std::max(0.0f, 1.0f - x * x - y * y)) * v;
-  return glm::normalize(vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
-}
-
-// The resulting density per solid angle of light directions: D·G1 / (4 n·v).
+// The density of directions from sampleVisibleNormal() per solid angle: D·G1 / (4 n·v).
 float visibleNormalPdf(float nv, float nh2, float alpha) {
   const float a2 = alpha * alpha, d = nh2 * (a2 - 1.0f) + 1.0f;
   const float distribution = a2 / (kPi * d * d);

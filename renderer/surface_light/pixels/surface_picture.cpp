@@ -6,9 +6,8 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
-#include "renderer/scene/surface.h"
+#include "renderer/surface_light/pixels/pixel_lobes.h"
 #include "renderer/surface_light/pixels/seen_triangle.h"
-#include "shaders/shared/brdf.h"
 
 namespace lamplighter {
 namespace {
@@ -29,23 +28,6 @@ uint32_t keyOf(const GBufferPoint& p) {
          1u;
 }
 
-// π × the share of even light that is reflected towards the eye. A lobe reflects even light as its
-// directional albedo.
-vec3 reflectanceOf(const RenderScene& scene, const GBufferPoint& p, const vec2& weights,
-                   const vec3& eye, const SurfacePictureOptions& options) {
-  if (options.white) return vec3(1.0f);
-  const Material& m = scene.materials[static_cast<size_t>(scene.objects[p.object].material)];
-  if (!options.speculars || !mayBeGlossy(m)) return p.albedo;
-  const Gloss gloss = glossAt(scene, p.object, p.triangle, weights.x, weights.y);
-  if (!shared::isGlossy(gloss.metallic, gloss.roughness)) return p.albedo;
-  const float nv = glm::dot(p.normal, glm::normalize(eye - p.position));
-  const float diffuse =
-      shared::diffuseShare(gloss.metallic, gloss.roughness, options.leastRoughness, nv);
-  const float dielectric = (1.0f - gloss.metallic) * shared::dielectricShare(gloss.roughness) *
-                           shared::dielectricAlbedo(gloss.roughness, options.leastRoughness, nv);
-  return diffuse * p.albedo + gloss.metallic * p.albedo + vec3(dielectric);
-}
-
 }  // namespace
 
 void SurfacePicture::restart(int width, int height, int samples) {
@@ -59,7 +41,7 @@ void SurfacePicture::restart(int width, int height, int samples) {
 
 void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
                          const ViewRecords& records, const GBufferView& gbuffer, const vec3& eye,
-                         const SurfacePictureOptions& options) {
+                         const SurfacePictureOptions& options, bool withoutLobes) {
   const size_t pixels = static_cast<size_t>(width_) * static_cast<size_t>(height_);
   const RenderScene& scene = in.scene;
   Point* points = points_.data() + static_cast<size_t>(added_++) * pixels;
@@ -73,13 +55,15 @@ void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
     MeshPoint at;
     if (!seen.isSound || !in.mesh.find(scene, p.object, p.triangle, seen.isBack, seen.weights, at))
       return;
-    const vec3 reflectance = reflectanceOf(scene, p, seen.weights, eye, options);
+    const PixelReflectance r = reflectanceOf(scene, p, seen.weights, eye, options);
+    const float even = withoutLobes ? 1.0f - PixelLobes::tracedShare(r.roughness) : 1.0f;
+    const vec3 reflectance = r.diffuse + even * r.lobe;
     out.reflectance = {packed(reflectance.r), packed(reflectance.g), packed(reflectance.b)};
     if (!records.isEmpty() && light.trustAt(at) < 1.0f) {
       const uint32_t triangles = scene.objects[p.object].triangleCount();
       ViewRecords::Point found;
       if (records.find(
-              x, y,
+              x, y, p.object,
               spotAt(scene, p.object,
                      {p.triangle + (seen.isBack ? triangles : 0), seen.weights.x, seen.weights.y}),
               found)) {

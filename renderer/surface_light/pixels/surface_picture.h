@@ -7,24 +7,20 @@
 
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/image/image.h"
+#include "renderer/surface_light/pixels/pixel_reflectance.h"
 #include "renderer/surface_light/pixels/view_records.h"
 
 namespace lamplighter {
-
-struct SurfacePictureOptions {
-  bool white = false;     // with ρ = 1: shows only the light
-  bool speculars = true;  // metallic-roughness BRDF
-  float leastRoughness = 0.1f;
-  bool operator==(const SurfacePictureOptions&) const = default;
-};
 
 class SurfacePicture {
  public:
   // Forgets all pixels. `samples`: how many G-buffers of this size follow.
   void restart(int width, int height, int samples);
   // One of them. Pixels where the mesh is too coarse are shown by records, if there are any.
+  // `withoutLobes`: PixelLobes adds what these reflect.
   void add(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,
-           const GBufferView& gbuffer, const vec3& eye, const SurfacePictureOptions& options);
+           const GBufferView& gbuffer, const vec3& eye, const SurfacePictureOptions& options,
+           bool withoutLobes = false);
 
   // Replaces the pixels of the only G-buffer that show another place than before. The mesh and the
   // records have the same numbers as then.

@@ -48,6 +48,12 @@ float similarity(const SurfaceSpot& a, const SurfaceSpot& b, float radius) {
   return turn * std::max(0.0f, 1.0f - (glm::length(d) + kOffPlane * off) / radius);
 }
 
+// For spots that no record is like: narrow bevels, leaves. Over 0 for normals within 60°.
+float likeness(const SurfaceSpot& a, const SurfaceSpot& b, float radius) {
+  const vec3 d = (b.position - a.position) / radius;
+  return std::max(0.0f, glm::dot(a.normal, b.normal) - 0.5f) / (1.0f + glm::dot(d, d));
+}
+
 }  // namespace
 
 void ViewRecords::restart(const View& view, uint32_t seed) {
@@ -67,9 +73,8 @@ float ViewRecords::pixelSize(const vec3& position) const {
          static_cast<float>(view_.height);
 }
 
-template <typename Take>
-void ViewRecords::around(int x, int y, const SurfaceSpot& spot, size_t levels,
-                         const Take& take) const {
+template <typename Like, typename Take>
+void ViewRecords::around(int x, int y, size_t levels, const Like& like, const Take& take) const {
   for (size_t l = 0; l < levels; ++l) {
     const Level& level = levels_[l];
     if (level.records.empty()) continue;
@@ -85,7 +90,7 @@ void ViewRecords::around(int x, int y, const SurfaceSpot& spot, size_t levels,
       if (r < 0) continue;
       const float tent = ((i & 1) != 0 ? u : 1.0f - u) * ((i >> 1) != 0 ? v : 1.0f - v);
       const Record& record = records_[static_cast<size_t>(r)];
-      const float weight = tent * similarity(record.spot, spot, record.radius);
+      const float weight = tent * like(record);
       if (weight > 0.0f) take(static_cast<uint32_t>(r), weight);
     }
   }
@@ -156,7 +161,9 @@ void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
       r.level = static_cast<uint8_t>(l);
       r.cell = static_cast<uint32_t>(cell);
       float covered = 0.0f;
-      around(x, y, r.spot, l, [&](uint32_t, float weight) { covered += weight; });
+      around(
+          x, y, l, [&](const Record& o) { return similarity(o.spot, r.spot, o.radius); },
+          [&](uint32_t, float weight) { covered += weight; });
       isWanted[cell] = covered < kCovered ? 1 : 0;
     });
     level.records.assign(cells, kNone);
@@ -187,6 +194,8 @@ void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
         const auto from = oldLinks.begin() + static_cast<std::ptrdiff_t>(was) * kRays;
         std::copy_n(from, kRays, linksOf(id).begin());
         r.radius = old[static_cast<size_t>(was)].radius;
+        r.sky = old[static_cast<size_t>(was)].sky;
+        r.hasSky = old[static_cast<size_t>(was)].hasSky;
       }
       records_.push_back(r);
       if (r.stale == 0 || !hasTime) continue;
@@ -204,6 +213,7 @@ void ViewRecords::trace(const GatherScene& scene, std::span<const uint32_t> reco
     const auto links = linksOf(records[k]);
     traceGatherRays(scene, {&r.spot, 1}, directionsOf(r), {&r.stale, 1}, links);
     r.stale = 0;
+    r.hasSky = false;
     float sum = 0.0f;
     for (const GatherLink& link : links) sum += 1.0f / std::max(link.metres(), 1e-6f);
     r.radius = kReachShare * static_cast<float>(kRays) / std::max(sum, 1e-6f);
@@ -241,12 +251,20 @@ void ViewRecords::findNear() {
   });
 }
 
-void ViewRecords::findLight(const SurfaceLight& light) {
+void ViewRecords::findLight(const RenderScene& scene, const SurfaceLight& light) {
   const auto& reflected = light.reflected();
   values_.assign(records_.size(), vec3(0.0f));
   if (reflected.empty()) return;
+  const bool isOtherSky = std::exchange(skyVersion_, light.skyVersion()) != light.skyVersion();
   tbb::parallel_for(size_t{0}, records_.size(), [&](size_t k) {
-    values_[k] = gatheredLight(linksOf(k), reflected) / static_cast<float>(kRays);
+    Record& r = records_[k];
+    if (light.part() != SurfaceLightPart::sky)
+      values_[k] = gatheredLight(linksOf(k), reflected) / static_cast<float>(kRays);
+    if (light.part() == SurfaceLightPart::bounced) return;
+    if (isOtherSky || !r.hasSky)
+      r.sky = light.skyAlong(scene, r.object, {&r.spot, 1}, directionsOf(r), linksOf(k));
+    r.hasSky = true;
+    values_[k] += light.skyBrightness() * r.sky;
   });
   std::vector<vec3> before;
   for (int pass = 0; pass < kSmoothPasses; ++pass) {
@@ -271,18 +289,27 @@ void ViewRecords::findLight(const SurfaceLight& light) {
   });
 }
 
-bool ViewRecords::find(int x, int y, const SurfaceSpot& spot, Point& out) const {
+bool ViewRecords::find(int x, int y, uint32_t object, const SurfaceSpot& spot, Point& out) const {
   // The five with the largest weights. That of the fifth is taken off the others, so that the
   // light is continuous where another record becomes one of the four.
   std::array<float, 5> weights{};
   std::array<uint32_t, 5> records{};
-  around(x, y, spot, levels_.size(), [&](uint32_t record, float weight) {
+  const auto take = [&](uint32_t record, float weight) {
     for (size_t k = 0; k < weights.size(); ++k) {
       if (!(weight > weights[k])) continue;
       std::swap(weight, weights[k]);
       std::swap(record, records[k]);
     }
-  });
+  };
+  around(
+      x, y, levels_.size(), [&](const Record& r) { return similarity(r.spot, spot, r.radius); },
+      take);
+  if (weights[0] < kLeastWeight) {
+    weights.fill(0.0f);
+    around(
+        x, y, levels_.size(),
+        [&](const Record& r) { return r.object == object ? likeness(r.spot, spot, r.radius) : 0.0f; }, take);
+  }
   if (weights[0] < kLeastWeight) return false;
   float sum = 0.0f;
   for (size_t k = 0; k < 4; ++k) {

@@ -34,16 +34,17 @@ class ViewRecords {
   // Only traces what is out of date, for frames in which objects move.
   void retrace(const GatherScene& scene, uint64_t most);
   // The light of the records. After each of the above.
-  void findLight(const SurfaceLight& light);
+  void findLight(const RenderScene& scene, const SurfaceLight& light);
   // Whether all records have all rays.
   bool isDone() const { return isDone_; }
   // Of records that are known to be missing. More may follow from what these see.
   uint64_t raysLeft() const { return raysLeft_; }
   bool isEmpty() const { return records_.empty(); }
 
-  // Those of a pixel that shows this spot. False if there are none.
-  bool find(int x, int y, const SurfaceSpot& spot, Point& out) const;
-  // Irradiance of bounced light by record [W/m²].
+  // Those of a pixel that shows this spot of an object. Where none is like it, others of the same
+  // object around it. False if there are none.
+  bool find(int x, int y, uint32_t object, const SurfaceSpot& spot, Point& out) const;
+  // Irradiance by record [W/m²], of the part that the light shows.
   const std::vector<vec3>& values() const { return values_; }
   size_t bytes() const;
 
@@ -54,6 +55,8 @@ class ViewRecords {
     float trust = 0.0f;   // of onMesh
     float radius = 0.0f;  // within which its light may be used [m]
     uint64_t stale = 0;   // a bit for each ray that is out of date
+    vec3 sky{0.0f};       // SurfaceLight::skyAlong() of its links
+    bool hasSky = false;
     uint32_t object = 0, place = 0, cell = 0;
     uint8_t level = 0, set = 0;
 
@@ -80,9 +83,10 @@ class ViewRecords {
   std::span<GatherLink> linksOf(size_t record) {
     return std::span(links_).subspan(record * kRays, kRays);
   }
-  // Calls take(record, weight) for the records of the first `levels` levels around a pixel.
-  template <typename Take>
-  void around(int x, int y, const SurfaceSpot& spot, size_t levels, const Take& take) const;
+  // Calls take(record, weight) for the records of the first `levels` levels around a pixel. The
+  // weight is that of its cell times like(record), over 0.
+  template <typename Like, typename Take>
+  void around(int x, int y, size_t levels, const Like& like, const Take& take) const;
 
   View view_;
   std::array<Level, 4> levels_;
@@ -91,6 +95,7 @@ class ViewRecords {
   std::vector<GatherLink> links_;  // by record, then by ray
   std::vector<Near> near_;
   std::vector<vec3> values_;
+  uint32_t skyVersion_ = 0;  // of sky
   uint64_t raysLeft_ = 0;
   bool isDone_ = false;
 };

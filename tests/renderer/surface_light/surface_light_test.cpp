@@ -127,7 +127,7 @@ TEST(SurfaceLight, FurnaceHasTheLightOfAGeometricSeries) {
     for (int k = 1; k <= bounces; ++k) expected += std::pow(0.7, k);
     std::vector<vec3> light;
     ReflectedLight reflected;
-    bounceLight(mesh, links, state, bounces, 256, light, reflected);
+    bounceLight(mesh, links, state, bounces, 256, SurfaceLightPart::bounced, light, reflected);
     for (const vec3& e : light) ASSERT_NEAR(e.g, expected, 1e-4 * expected);
   }
 }

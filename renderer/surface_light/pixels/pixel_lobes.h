@@ -1,0 +1,51 @@
+// What glossy surfaces of a view mirror: bounced light and the sky along rays of their lobes. The
+// rays are kept as links to elements, so other light traces none. Neighbouring pixels share theirs.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/image/image.h"
+#include "renderer/surface_light/gather_rays.h"
+#include "renderer/surface_light/pixels/pixel_reflectance.h"
+#include "renderer/surface_light/surface_light.h"
+
+namespace lamplighter {
+
+class PixelLobes {
+ public:
+  // How much of a lobe follows rays, by roughness. For the rest even light is as good.
+  static float tracedShare(float roughness);
+
+  // `samples`: how many G-buffers of the view follow.
+  void restart(const View& view, int samples, uint32_t seed);
+  // One of them: a ray for each pixel with a lobe. Returns the number of rays.
+  uint64_t add(const GatherScene& scene, const GBufferView& gbuffer,
+               const SurfacePictureOptions& options);
+  // Adds the radiance of the lobes, the mean of the samples.
+  void addTo(const RenderScene& scene, const SurfaceLight& light, Image& picture) const;
+  size_t bytes() const { return rays_.size() * sizeof(LobeRay) + guides_.size() * sizeof(Guide); }
+
+ private:
+  struct LobeRay {
+    GatherLink link;
+    uint32_t direction = 0;                 // packed; of a link to the sky
+    std::array<uint16_t, 3> reflectance{};  // [1/65535]; 0: no ray
+    bool isUsed() const { return (reflectance[0] | reflectance[1] | reflectance[2]) != 0; }
+  };
+  // Of the first ray: which pixels show parts of the same reflection.
+  struct Guide {
+    vec3 normal{0.0f};
+    uint32_t object = 0;
+    float radius = 0.0f;  // within which the lobe blurs what it shows [pixels]
+  };
+  void average(const std::vector<vec3>& from, int step, std::vector<vec3>& to) const;
+
+  View view_;
+  uint32_t seed_ = 0;
+  int samples_ = 0, added_ = 0;
+  std::vector<LobeRay> rays_;  // by sample, then by pixel; empty without glossy pixels
+  std::vector<Guide> guides_;  // by pixel
+};
+
+}  // namespace lamplighter
