@@ -13,7 +13,7 @@ const std::vector<DebugViewInfo>& fixedViews() {
   using enum Capability;
   using Needs = std::vector<Capability>;
   const Needs ofPatches{patches}, ofLights{lights}, ofPatchesAndLights{patches, lights},
-      ofTexels{texels}, ofTransfer{transfer};
+      ofTexels{texels}, ofElements{elements}, ofTransfer{transfer};
   static const std::vector<DebugViewInfo> views = {
       {DebugView::lit, "lit", "Lit", "Alt+1", "The picture as it is."},
       {DebugView::lightOnly, "light_only", "Light only", "Alt+2",
@@ -57,6 +57,20 @@ const std::vector<DebugViewInfo>& fixedViews() {
       {DebugView::lightMapDensity, "light_map_density", "Light-map density", "",
        "The distance between texels of light maps, on the surface.", views::lightMapDensity,
        ofTexels},
+      {DebugView::meshEdges, "mesh_edges", "Elements", "",
+       "The elements of surface at whose corners light is kept. Grey ones stand for many small "
+       "triangles.",
+       views::meshEdges, ofElements},
+      {DebugView::meshSamples, "mesh_samples", "Light of elements", "",
+       "Where pixels show the light of elements, and where that of records at pixels, as the "
+       "camera rests.",
+       views::meshSamples, ofElements},
+      {DebugView::meshContrast, "mesh_contrast", "Contrast of elements", "",
+       "How much the light differs between the corners of each element.", views::meshContrast,
+       ofElements},
+      {DebugView::meshAge, "mesh_age", "Age of elements", "",
+       "The fraction of the rays of each element that are out of date or missing.", views::meshAge,
+       ofElements},
       {DebugView::mapAge, "map_age", "Map age", "",
        "The mean number of frames since the light samples that reach a point were updated.",
        views::mapAge, ofLights},

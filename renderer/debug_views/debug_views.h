@@ -22,6 +22,10 @@ ViewPicture lightMapDensity(const ViewSubject& subject);
 ViewPicture shadowMap(const ViewSubject& subject);
 ViewPicture edgeMask(const ViewSubject& subject);
 ViewPicture prtObjects(const ViewSubject& subject);
+ViewPicture meshEdges(const ViewSubject& subject);
+ViewPicture meshSamples(const ViewSubject& subject);
+ViewPicture meshContrast(const ViewSubject& subject);
+ViewPicture meshAge(const ViewSubject& subject);
 ViewPicture mapAge(const ViewSubject& subject);
 
 }  // namespace lamplighter::views

@@ -47,7 +47,9 @@ std::string problemOf(DebugView view, const ViewSubject& in) {
   if (view == DebugView::shadowMap && in.shadowMap.empty())
     return "the chosen light sample has no shadow map, because no visible pixel needs one";
   if (view == DebugView::edgeMask && in.interpolated.empty())
-    return "it needs block above 1, and the technique visibility or light_maps of many_lights";
+    return "it needs block above 1 and the technique visibility or light_maps of many_lights, and "
+           "once "
+           "the picture is settled share_memory=0";
   if (view == DebugView::falseColour && in.radiance == nullptr) return "nothing is rendered yet";
   return "";
 }

@@ -5,6 +5,7 @@
 
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/methods/pixel_jitter.h"
+#include "renderer/methods/surface_elements.h"
 
 namespace lamplighter {
 
@@ -18,6 +19,7 @@ constexpr uint64_t kRaysAFrame = 150'000;
 void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& light,
                             const SurfacePictureOptions& picture, float pace) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});
+  scene_ = &in.scene;
   const bool isLive = !changes.none() || !(in.view == view_);
   const auto most = static_cast<uint64_t>((isLive ? std::min(pace, 1.0f) : 1.0f) *
                                           static_cast<float>(kRaysAFrame));
@@ -58,6 +60,11 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
   antialias_ = shown;
   shown_ = std::make_shared<HostImage>(std::move(sum));
   return shown_;
+}
+
+std::shared_ptr<const ElementView> BouncedPicture::elements() const {
+  if (scene_ == nullptr || light_.values().empty()) return nullptr;
+  return std::make_shared<SurfaceElements>(*scene_, light_);
 }
 
 int BouncedPicture::framesLeft(int antialias) const {

@@ -34,6 +34,8 @@ class BouncedPicture {
   }
   // Estimate of the frames until isDone(), without further changes.
   int framesLeft(int antialias) const;
+  // For debug views. Null without light. Valid until the next update.
+  std::shared_ptr<const ElementView> elements() const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const {
     return records_.bytes() + plain_.bytes() + smooth_.bytes() + lobes_.bytes();
@@ -50,6 +52,7 @@ class BouncedPicture {
                  bool& gbufferIsCurrent);
 
   SurfaceLight light_;
+  const RenderScene* scene_ = nullptr;  // of the last update
   RenderSceneChanges unseen_;           // since the last update
   SurfacePictureOptions options_;
   View view_;

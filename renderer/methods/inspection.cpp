@@ -3,8 +3,9 @@
 namespace lamplighter {
 
 const char* nameOf(Capability capability) {
-  static constexpr const char* kNames[] = {"light samples",        "patches", "texels",
-                                           "precomputed transfer", "points",  "links"};
+  static constexpr const char* kNames[] = {
+      "light samples",        "patches", "texels", "elements of surface",
+      "precomputed transfer", "points",  "links"};
   return kNames[static_cast<size_t>(capability)];
 }
 
@@ -16,6 +17,8 @@ bool Inspection::has(Capability capability) const {
       return patches != nullptr;
     case Capability::texels:
       return texels != nullptr;
+    case Capability::elements:
+      return elements != nullptr;
     case Capability::transfer:
       return transfer != nullptr;
     case Capability::points:

@@ -2,6 +2,7 @@
 // view asks for those that it needs and does not know the method.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -17,7 +18,7 @@
 
 namespace lamplighter {
 
-enum class Capability : uint8_t { lights, patches, texels, transfer, points, links };
+enum class Capability : uint8_t { lights, patches, texels, elements, transfer, points, links };
 const char* nameOf(Capability capability);  // in the plural: "light samples"
 
 // Patches: pieces of surface for which the method knows which light samples reach them.
@@ -66,6 +67,31 @@ class TexelView {
   virtual vec3 irradianceAt(uint32_t object, uint32_t triangle, const vec3& position) const = 0;
 };
 
+// Elements of surface at whose corners light is kept. All functions may be called in parallel.
+class ElementView {
+ public:
+  virtual ~ElementView() = default;
+
+  // A point on an element.
+  struct Place {
+    uint32_t element = 0;
+    vec3 weights{1.0f, 0.0f, 0.0f};  // of its corners
+    bool isCluster = false;          // it stands for many small triangles
+    float trust = 1.0f;  // share of the light of a pixel that is the element's, as the camera rests
+  };
+  // `weights`: of the second and third corner of the triangle. None where the method keeps no
+  // light.
+  virtual std::optional<Place> placeAt(uint32_t object, uint32_t triangle, bool isBack,
+                                       const vec2& weights) const = 0;
+
+  struct Corner {
+    vec3 irradiance{0.0f};  // of the light that is kept [W/m²]
+    float pending = 0.0f;   // share of its rays that are out of date or missing
+    bool isBuried = false;  // inside of an object or behind a wall
+  };
+  virtual std::array<Corner, 3> cornersOf(uint32_t element) const = 0;
+};
+
 // Whether an object is lit by precomputed transfer.
 enum class TransferState : uint8_t { none, pending, ready };
 
@@ -89,6 +115,7 @@ struct Inspection {
   bool lightsLeaveOutSky = false;
   std::shared_ptr<const PatchView> patches;
   std::shared_ptr<const TexelView> texels;
+  std::shared_ptr<const ElementView> elements;
   std::function<TransferState(uint32_t object)> transfer;
   std::function<std::vector<InspectedPoint>()> points;
   std::function<std::vector<InspectedLink>()> links;

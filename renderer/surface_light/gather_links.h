@@ -70,6 +70,12 @@ class GatherLinks {
   // Rays that are out of date or missing.
   uint64_t raysLeft() const;
 
+  // Share of the rays of a sample that are out of date or missing.
+  float pendingShareOf(uint32_t sample) const {
+    const size_t good = known_[sample] - staleCounts_[sample];
+    return 1.0f - static_cast<float>(good) / static_cast<float>(rays_);
+  }
+
   int rays() const { return static_cast<int>(rays_); }
   // Those that are known.
   std::span<const GatherLink> of(uint32_t sample) const {

@@ -65,6 +65,8 @@ class SurfaceLight {
   // How well the mesh shows the light at a point, from 0 to 1: not where surfaces are near compared
   // with an element, nor on elements that are cut by walls or stand for many small triangles.
   float trustAt(const MeshPoint& point) const;
+  // Whether it lies inside of an object or behind a wall, and has the light of its neighbours.
+  bool isBuried(uint32_t sample) const { return state_.smoothing.isBuried(sample); }
   // What the last update found to have moved, if it kept the elements' numbers: objects, and boxes
   // that contain them before and after.
   const std::vector<uint32_t>& movedObjects() const { return moved_; }

@@ -54,8 +54,10 @@ TEST_F(RenderView, WritesEveryViewAndAllDiffer) {
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
     std::vector<std::string> flags{"--view", info.name};
+    const bool isOfElements = std::ranges::count(info.needs, Capability::elements) > 0;
     if (info.method.empty())
-      flags.insert(flags.end(), {"--set", "technique=light_maps", "--set", "prt=true"});
+      flags.insert(flags.end(), {"--set", "technique=light_maps", "--set",
+                                 isOfElements ? "indirect=meshes" : "prt=true"});
     else
       flags.insert(flags.end(), {"--method", info.method});
     const ProcessResult r = render("view.png", flags);
@@ -118,6 +120,8 @@ TEST_F(RenderView, RefusesViewsThatItCannotShow) {
         "needs light samples: choose many_lights");
   fails("a.png", {"--view", "occlusion", "--set", "technique=visibility", "--view-vpl", "1000"},
         "there is no light sample 1000; give one from 0 to ");
+  fails("a.png", {"--view", "mesh_age", "--set", "indirect=samples"},
+        "needs elements of surface: choose many_lights with indirect=meshes, or multi_mesh");
   fails("a.png", {"--view", "prt_objects"}, "choose many_lights with prt");
   fails("a.png", {"--view", "edge_mask", "--set", "block=1"}, "needs block above 1");
   fails("a.exr", {"--view", "false_colour"}, "is not radiance");

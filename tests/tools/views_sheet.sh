@@ -9,10 +9,11 @@ trap 'rm -rf "$work"' EXIT
 
 still="lit light_only direct indirect albedo normals flat patches false_colour patch_levels occlusion \
   light_occlusion partial_lights lights_per_patch light_maps light_map_density shadow_map edge_mask \
-  prt_objects"
+  mesh_edges mesh_samples mesh_contrast prt_objects"
 for view in $still; do
   more=
   if [ "$view" = prt_objects ]; then more="--set prt=true"; fi
+  if [ "$view" = edge_mask ]; then more="--set share_memory=0"; fi
   "$lamplighter" render "$scene" -o "$work/$view.png" --view "$view" --legend --size 480x300 \
     --set technique=light_maps $more --exposure 1 --backend cpu
 done
@@ -44,7 +45,8 @@ oiiotool lit.png light_only.png direct.png indirect.png albedo.png normals.png f
   --mosaic:pad=4 4x2 -o above.png
 oiiotool false_colour.png patch_levels.png occlusion.png light_occlusion.png partial_lights.png \
   lights_per_patch.png light_maps.png light_map_density.png map_age.png pending_patches.png \
-  shadow_map.png edge_mask.png prt_objects.png vpls.png --mosaic:pad=4 4x4 -o below.png
+  shadow_map.png edge_mask.png mesh_edges.png mesh_samples.png mesh_contrast.png prt_objects.png \
+  vpls.png --mosaic:pad=4 4x5 -o below.png
 height=$(oiiotool --info below.png | sed 's/.* \([0-9]*\) x *\([0-9]*\).*/\2/')
 oiiotool above.png --create 1932x$((608 + height)) 3 --paste +0+0 -o sheet.png
 oiiotool below.png sheet.png --paste +0+608 -o "$source_dir/docs/images/views.png"

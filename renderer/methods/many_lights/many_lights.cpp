@@ -384,6 +384,7 @@ Inspection ManyLights::inspect() const {
   if (visibility_) out.patches = std::make_shared<DatabasePatches>(*visibility_);
   if (visibility_ && lightMaps_)
     out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);
+  out.elements = meshes_.elements();
   if (prt_) {
     out.transfer = [prt = prt_.get()](uint32_t object) {
       if (object >= prt->objects()) return TransferState::none;
@@ -414,6 +415,7 @@ MethodInfo manyLightsInfo() {
           {{Capability::lights, ""},
            {Capability::patches, "with the technique visibility or light_maps"},
            {Capability::texels, "with the technique light_maps"},
+           {Capability::elements, "with indirect=meshes"},
            {Capability::transfer, "with prt"},
            {Capability::points, "with prt"}}};
 }

@@ -45,9 +45,9 @@ const ParameterTable<P>& manyLightsParameters() {
        "indirect",
        "Bounced light",
        "",
-       "samples: light samples carry it. meshes: it is kept on the surfaces, smooth and current in "
-       "each frame, and all light samples are placed on the lights. automatic: meshes on the cpu "
-       "backend, samples on gl and with prt.",
+       "samples: light samples carry it. meshes: surfaces keep it and the light of the sky, smooth "
+       "and current in each frame, and all light samples are placed on lamps and suns. automatic: "
+       "meshes on the cpu backend, samples on gl and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
         {"meshes", ManyLightsIndirect::meshes}},

@@ -79,7 +79,10 @@ MethodInfo multiMeshInfo() {
             return std::make_unique<MultiMesh>(backend.kernels<ManyLightsKernels>("multi_mesh"));
           },
           lights.needs,
-          {{Capability::lights, ""}, {Capability::patches, ""}, {Capability::texels, ""}}};
+          {{Capability::lights, ""},
+           {Capability::patches, ""},
+           {Capability::texels, ""},
+           {Capability::elements, ""}}};
 }
 
 }  // namespace lamplighter

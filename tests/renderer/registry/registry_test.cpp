@@ -49,8 +49,9 @@ TEST(Registry, MethodsUseOnlyDeclaredServicesAndDrawTheirViews) {
       return std::ranges::find(method.shows, capability, &ShownCapability::capability) !=
              method.shows.end();
     };
-    for (const Capability c : {Capability::lights, Capability::patches, Capability::texels,
-                               Capability::transfer, Capability::points, Capability::links}) {
+    for (const Capability c :
+         {Capability::lights, Capability::patches, Capability::texels, Capability::elements,
+          Capability::transfer, Capability::points, Capability::links}) {
       if (inspection.has(c)) {
         EXPECT_TRUE(isDeclared(c)) << nameOf(c);
       }
