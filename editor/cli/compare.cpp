@@ -1,10 +1,12 @@
 #include <iostream>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 
@@ -12,10 +14,20 @@ namespace lamplighter::cli {
 
 int compare(const CompareOptions& options) {
   if (!options.heatmap.empty()) requireWritable(options.heatmap, {".png"});
-  const Image a = readImage(options.a), b = readImage(options.b);
-  Image mask;
+  Image a = readImage(options.a), b = readImage(options.b);
+  std::optional<Image> mask;
   if (!options.mask.empty()) mask = readImage(options.mask);
-  const Metrics m = compareImages(a, b, options.mask.empty() ? nullptr : &mask);
+  if (options.block > 1) {
+    const auto isOfSize = [&](const Image& i) {
+      return i.width == a.width && i.height == a.height;
+    };
+    if (isOfSize(b) && (!mask || isOfSize(*mask))) {  // otherwise, the comparison says so
+      a = averageBlocks(a, options.block, mask ? &*mask : nullptr);
+      b = averageBlocks(b, options.block, mask ? &*mask : nullptr);
+      if (mask) mask = blockMask(*mask, options.block);
+    }
+  }
+  const Metrics m = compareImages(a, b, mask ? &*mask : nullptr);
   if (!options.heatmap.empty()) writePng(heatMap(a, b), options.heatmap);
 
   if (options.json) {

@@ -13,6 +13,7 @@
 #include "editor/document/cache_folder.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/registry/registry.h"
@@ -24,13 +25,25 @@ namespace {
 // Rows of the output: the time from one to the next grows at least by this factor.
 constexpr double kRowFactor = 1.15;
 
-struct Reference {
-  Image picture;
-  std::optional<Image> mask;
-
-  double errorOf(const Image& image) const {
-    return relRmse(image, picture, mask ? &*mask : nullptr);
+class Reference {
+ public:
+  // Pictures of one size; compares means of block × block pixels.
+  Reference(const Image& picture, std::optional<Image> mask, int block)
+      : block_(block), mask_(std::move(mask)), blocks_(blocksOf(picture)) {
+    if (mask_) blockMask_ = blockMask(*mask_, block);
   }
+  double errorOf(const Image& image) const {
+    return relRmse(blocksOf(image), blocks_, blockMask_ ? &*blockMask_ : nullptr);
+  }
+
+ private:
+  Image blocksOf(const Image& image) const {
+    return averageBlocks(image, block_, mask_ ? &*mask_ : nullptr);
+  }
+
+  int block_;
+  std::optional<Image> mask_, blockMask_;
+  Image blocks_;
 };
 
 Image readOfSize(const std::string& file, int width, int height) {
@@ -44,8 +57,9 @@ Image readOfSize(const std::string& file, int width, int height) {
 }
 
 Reference readReference(const ConvergeOptions& o, int width, int height) {
-  Reference reference{readOfSize(o.against, width, height), {}};
-  if (!o.mask.empty()) reference.mask = readOfSize(o.mask, width, height);
+  std::optional<Image> mask;
+  if (!o.mask.empty()) mask = readOfSize(o.mask, width, height);
+  Reference reference(readOfSize(o.against, width, height), std::move(mask), o.block);
   // The error of a black picture is at least 1, unless the reference is black, too.
   const double ofBlack = reference.errorOf(Image(width, height));
   if (!(ofBlack > 0.0 && std::isfinite(ofBlack)))
@@ -90,6 +104,7 @@ std::string jsonText(const ConvergeOptions& o, const BackendInfo& backend,
       {"to", orNull(o.to)},
       {"against", o.against},
       {"mask", orNull(o.mask)},
+      {"block", o.block},
       {"method", o.method},
       {"backend", backend.name},
       {"device", backend.device},

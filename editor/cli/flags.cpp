@@ -129,6 +129,9 @@ void compareFlags(CLI::App& sub, Run& run, const Frontend&) {
   sub.add_option("A", o->a, "Image")->type_name("FILE")->required();
   sub.add_option("B", o->b, "Image of the same size, the reference")->type_name("FILE")->required();
   sub.add_option("--mask", o->mask, "Only pixels over 0.5 in this image count")->type_name("FILE");
+  sub.add_option("--block", o->block, "Compares the means of N x N pixels [1]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
   sub.add_option("--heatmap", o->heatmap, "PNG file for where they differ")->type_name("FILE");
   sub.add_option("--max-relrmse", o->maxRelRmse, "A check: exit code 1 when relRMSE is larger")
       ->type_name("X")
@@ -151,6 +154,9 @@ void convergeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->type_name("FILE")
       ->required();
   sub.add_option("--mask", o->mask, "Only pixels over 0.5 in this image count")->type_name("FILE");
+  sub.add_option("--block", o->block, "Compares the means of N x N pixels [1]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
   addMethodName(sub, o->method);
   addView(sub, o->camera, o->size);
   addMethodFlags(sub, *o, "Samples a pixel");

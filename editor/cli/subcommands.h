@@ -49,6 +49,7 @@ int settings(const SettingsOptions& options);
 
 struct CompareOptions {
   std::string a, b, mask, heatmap;
+  int block = 1;             // compares means of block × block pixels
   double maxRelRmse = -1.0;  // < 0: not checked
   bool json = false;
 };
@@ -59,6 +60,7 @@ struct ConvergeOptions : MethodFlags {
   std::string against, mask;
   std::string method = "many_lights";
   std::string camera, size = "1280x720", backend = "auto";
+  int block = 1;                  // as CompareOptions
   std::optional<double> seconds;  // none: until the picture is settled
   int threads = 0;
   bool json = false;

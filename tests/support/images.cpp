@@ -13,12 +13,4 @@ double differingShare(const Image& a, const Image& b, float absolute, float rela
   return static_cast<double>(count) / static_cast<double>(a.pixels.size());
 }
 
-Image blockMeans(const Image& image, int side) {
-  Image out(image.width / side, image.height / side);
-  for (int y = 0; y < out.height * side; ++y)
-    for (int x = 0; x < out.width * side; ++x)
-      out.at(x / side, y / side) += image.at(x, y) / static_cast<float>(side * side);
-  return out;
-}
-
 }  // namespace lamplighter::test

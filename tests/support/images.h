@@ -9,7 +9,4 @@ namespace lamplighter::test {
 // Pixels with NaN differ, and all pixels of pictures of different sizes.
 double differingShare(const Image& a, const Image& b, float absolute, float relative = 0.0f);
 
-// The means over blocks of side × side pixels. An incomplete last row or column is left out.
-Image blockMeans(const Image& image, int side);
-
 }  // namespace lamplighter::test

@@ -10,11 +10,11 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
-#include "tests/support/images.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 #include "tests/support/skies.h"
@@ -148,7 +148,7 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   ASSERT_TRUE(out.settled && out.refined);
   const Image reference = test::renderReference(scene, view, 256, 1);
   const Image& picture = out.radiance->pixels();
-  const Metrics m = compareImages(test::blockMeans(picture, 4), test::blockMeans(reference, 4));
+  const Metrics m = compareImages(averageBlocks(picture, 4), averageBlocks(reference, 4));
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("bias", std::to_string(m.bias));
   EXPECT_LT(m.relRmse, GetParam().mostError);

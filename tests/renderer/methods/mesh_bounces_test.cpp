@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
-#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scene_files.h"
@@ -141,8 +141,8 @@ TEST(MeshBounces, LightAroundSmallObjectsIsCloseToThatOfPaths) {
   Settings paths;
   paths.set("bounces", 2);
   paths.set("spp", 400);
-  const Image reference = test::blockMeans(indirect("reference", paths), 4);
-  const Image shown = test::blockMeans(indirect(kMethod, meshSettings(2)), 4);
+  const Image reference = averageBlocks(indirect("reference", paths), 4);
+  const Image shown = averageBlocks(indirect(kMethod, meshSettings(2)), 4);
   const Metrics m = compareImages(shown, reference);
   RecordProperty("relRmse", std::to_string(m.relRmse));
   EXPECT_LT(m.relRmse, 0.05);

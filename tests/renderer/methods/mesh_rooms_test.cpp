@@ -2,8 +2,8 @@
 // surfaces and else default settings.
 #include <gtest/gtest.h>
 
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -68,9 +68,9 @@ void expectCloseToPaths(const LitRoom& room) {
   settings.set("bounces", kBounces);
   Settings paths = settings;
   paths.set("spp", 2048);
-  const Image reference = test::blockMeans(settled(room, "reference", paths), kBlock);
+  const Image reference = averageBlocks(settled(room, "reference", paths), kBlock);
   settings.set("indirect", std::string("meshes"));
-  const Image shown = test::blockMeans(settled(room, "many_lights", settings), kBlock);
+  const Image shown = averageBlocks(settled(room, "many_lights", settings), kBlock);
   const Metrics m = compareImages(shown, reference);
   testing::Test::RecordProperty("relRmse", std::to_string(m.relRmse));
   testing::Test::RecordProperty("bias", std::to_string(m.bias));

@@ -1,8 +1,8 @@
 // many_lights with the light of the sky on surfaces, and what glossy surfaces mirror of it.
 #include <gtest/gtest.h>
 
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -75,8 +75,8 @@ void expectCloseToPaths(const SunRoom& room, double most) {
   paths.set("bounces", 3);
   paths.set("spp", 512);
   const Image reference =
-      test::blockMeans(freshlySettled(room.scene, room.view, paths, "reference"), 8);
-  const Image shown = test::blockMeans(freshlySettled(room.scene, room.view, settings), 8);
+      averageBlocks(freshlySettled(room.scene, room.view, paths, "reference"), 8);
+  const Image shown = averageBlocks(freshlySettled(room.scene, room.view, settings), 8);
   const Metrics m = compareImages(shown, reference);
   testing::Test::RecordProperty("relRmse", std::to_string(m.relRmse));
   testing::Test::RecordProperty("bias", std::to_string(m.bias));

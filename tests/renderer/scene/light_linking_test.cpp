@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 
 #include "renderer/base/error.h"
+#include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/gltf_files.h"
-#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scene_equality.h"
@@ -171,7 +171,7 @@ TEST(LightLinking, MethodsAgree) {
   t.scene.sky = vec3(0.2f, 0.3f, 0.4f);
   t.scene.skyLight.leftOut = {t.right};
   const Image reference = test::renderReference(t.scene, t.view, 400, 2);
-  const auto blockMeans = [](const Image& image) { return test::blockMeans(image, 4); };
+  const auto blockMeans = [](const Image& image) { return averageBlocks(image, 4); };
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     Settings s = manyLights(technique, false);
     s.set("vpls", 2048);
