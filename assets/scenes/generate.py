@@ -324,6 +324,45 @@ def close_light():
     s.write("close_light")
 
 
+def corridor():
+    """A corridor that turns, and a lamp behind its corner: what the camera sees has bounced light alone."""
+    s = Scene()
+    white, blue = s.material("white", (0.75, 0.75, 0.75)), s.material("blue", (0.3, 0.4, 0.7))
+    X, Y, Z = [1, 0, 0], [0, 1, 0], [0, 0, 1]
+    v = lambda d, k: [c * k for c in d]
+    # Two arms, 2 m wide and 3 m high: one along Z at x < -1, one along X at z < -1.
+    for name, y, side in (("floor", 0, 1), ("ceiling", 3, -1)):
+        s.quads(name, [([-3 if side > 0 else -1, y, 3], v(X, 2 * side), v(Z, -6)),
+                       ([-1 if side > 0 else 3, y, -1], v(X, 4 * side), v(Z, -2))], white)
+    s.quads("outer walls", [([-3, 0, 3], v(Z, -6), v(Y, 3)), ([-3, 0, -3], v(X, 6), v(Y, 3)),
+                            ([3, 0, -3], v(Z, 2), v(Y, 3)), ([-1, 0, 3], v(X, -2), v(Y, 3))], white)
+    s.quads("inner walls", [([-1, 0, -1], v(Z, 4), v(Y, 3)), ([3, 0, -1], v(X, -4), v(Y, 3))], blue)
+    s.box("crate", (0.5, 0.5, 0.5), white, translation=[-2.5, 0.25, -0.6], rotation=turned((0, 1, 0), 20))
+    s.light("lamp", (0.8, 0.8), (44.0, 40.0, 34.0), [2.2, 2.9, -2.0], DOWN)
+    s.camera("camera", (-2.0, 1.6, 2.6), (-2.0, 1.2, -2.0), 0.9)
+    s.write("corridor")
+
+
+def door_ajar():
+    """A dark room that light enters by a door ajar alone, seen from its dark side."""
+    s = Scene()
+    white, wood = s.material("white", (0.75, 0.75, 0.75)), s.material("wood", (0.5, 0.3, 0.2))
+    s.room((6, 3, 6), white, white, white, s.material("sage", (0.4, 0.55, 0.4)), white, white)
+    for name, size, at in (("wall left of the door", (3.2, 3, 0.1), (-1.4, 1.5, 0)),
+                           ("wall right of the door", (2.0, 3, 0.1), (2.0, 1.5, 0)),
+                           ("lintel", (0.8, 0.95, 0.1), (0.6, 2.525, 0))):
+        s.box(name, size, white, translation=list(at))
+    # The hinge is at x = 0.2; the door opens into the dark room by 40 degrees.
+    a = math.radians(40)
+    s.box("door", (0.76, 2.03, 0.04), wood, translation=[0.2 + 0.38 * math.cos(a), 1.02, -0.38 * math.sin(a)],
+          rotation=turned((0, 1, 0), 40))
+    s.box("chest", (0.9, 0.5, 0.5), wood, translation=[-1.2, 0.25, -0.6])
+    s.light("lamp", (1.0, 1.0), (66.0, 60.0, 50.0), [0.4, 2.9, 1.6], DOWN)
+    s.camera("camera", (-1.8, 1.7, -2.7), (0.6, 0.9, 0.0), 0.9)
+    s.write("door_ajar")
+
+
 if __name__ == "__main__":
-    for make in (area_light_room, table_room, pillar_room, cornell_style, default, narrow_gap, close_light):
+    for make in (area_light_room, table_room, pillar_room, cornell_style, default, narrow_gap, close_light, corridor,
+                 door_ajar):
         make()
