@@ -55,6 +55,7 @@ uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobO
     add(std::bit_cast<uint32_t>(s.edge));
     add(s.linkBytes);
     add(s.seed);
+    add(static_cast<uint64_t>(s.projection));
   }
   return key;
 }

@@ -24,10 +24,10 @@ VplSet ownSamples(const RenderScene& scene, const RayCaster& rays, const Setting
   return generateVpls(scene, rays, LightSet(scene), counts);
 }
 
-// Whether a sky sends light, apart from its suns.
-bool hasSky(const RenderScene& scene) {
-  return std::ranges::any_of(LightSet(scene).emitters(), [](const Emitter& e) {
-    return e.kind == EmitterKind::sky && e.skySun == 0 && luminance(e.flux) > 0.0f;
+// Whether an emitter of this kind sends light, apart from the suns of the sky.
+bool hasLightOf(const RenderScene& scene, EmitterKind kind) {
+  return std::ranges::any_of(LightSet(scene).emitters(), [&](const Emitter& e) {
+    return e.kind == kind && e.skySun == 0 && luminance(e.flux) > 0.0f;
   });
 }
 
@@ -44,12 +44,14 @@ LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene
   const bool lackAll = inspection.lights.empty();
   const bool lackBounced = std::ranges::none_of(
       inspection.lights, [](const LightSample& light) { return light.id.bounce > 0; });
-  const bool lackSky = inspection.lightsLeaveOutSky && hasSky(scene);
+  const bool lackSky = inspection.lightsLeaveOutSky && hasLightOf(scene, EmitterKind::sky);
+  const bool lackSurfaces =
+      inspection.lightsLeaveOutSurfaces && hasLightOf(scene, EmitterKind::surface);
   const int bounces = pathParameters().read(settings).bounces;
-  if (!lackAll && !lackSky && (!lackBounced || bounces == 0)) return out;
+  if (!lackAll && !lackSky && !lackSurfaces && (!lackBounced || bounces == 0)) return out;
   for (const SceneVpl& made : ownSamples(scene, rays, settings).vpls) {
-    const bool isOfSky = made.id.light == kNoNode && made.isSample;
-    if (lackAll || (made.id.bounce > 0 ? lackBounced : lackSky && isOfSky))
+    const bool lacksDirect = made.isSample && (made.id.light == kNoNode ? lackSky : lackSurfaces);
+    if (lackAll || (made.id.bounce > 0 ? lackBounced : lacksDirect))
       out.samples.push_back({made.vpl, made.id});
   }
   return out;

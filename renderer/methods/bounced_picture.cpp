@@ -26,8 +26,9 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   hasOtherLight_ = light_.update(in.scene, changes, in.services.rays(), light, most);
   if (hasOtherLight_) shown_ = nullptr;
   raysLeft_ = std::max(most / 4, most - std::min(most, light_.counts().rays));
-  const bool isOtherView = !(in.view == view_) || light.seed != seed_;
-  if (isOtherView) records_.restart(in.view, light.seed);
+  const bool isOtherView =
+      !(in.view == view_) || light.seed != seed_ || light.projection != projection_;
+  if (isOtherView) records_.restart(in.view, light.seed, light.projection);
   records_.outdate(gatherScene(in), light_);
   isAtRest_ = light_.keptMesh() && !isOtherView;
   // Pixels keep their places on the elements only if nothing of the scene changes.
@@ -40,6 +41,7 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   shown_ = nullptr;
   view_ = in.view;
   seed_ = light.seed;
+  projection_ = light.projection;
   options_ = picture;
 }
 

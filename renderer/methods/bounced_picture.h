@@ -61,6 +61,7 @@ class BouncedPicture {
   bool isAtRest_ = false, hasOtherLight_ = false, keepsPixels_ = false;  // of this frame
   uint64_t raysLeft_ = 0;                                                // of this frame
   uint32_t seed_ = 0;
+  GatherProjection projection_ = GatherProjection::hemisphere;
   SurfacePicture plain_, smooth_;  // without a shift; antialiased
   PixelLobes lobes_;               // of smooth_
   // What was shown last.

@@ -113,6 +113,8 @@ struct Inspection {
   std::span<const LightSample> lights;  // in an order that does not change with edits
   // They leave out the light of the sky, but for its suns: surfaces have it.
   bool lightsLeaveOutSky = false;
+  // Nor surfaces that emit.
+  bool lightsLeaveOutSurfaces = false;
   std::shared_ptr<const PatchView> patches;
   std::shared_ptr<const TexelView> texels;
   std::shared_ptr<const ElementView> elements;

@@ -12,12 +12,14 @@ struct SurfaceLightParameters {
   int gatherRays = 256;
   int linkMemory = 64;  // MiB
   int mask = 0;         // places along a side of a light
+  GatherProjection projection = GatherProjection::hemisphere;
   bool operator==(const SurfaceLightParameters&) const = default;
 
   SurfaceLightOptions surfaceLight(int bounces, int seed) const {
     return {bounces,    coarseEdge,
             gatherRays, static_cast<size_t>(linkMemory) << 20,
-            mask,       static_cast<uint32_t>(seed)};
+            mask,       static_cast<uint32_t>(seed),
+            projection};
   }
 };
 const ParameterTable<SurfaceLightParameters>& surfaceLightParameters();

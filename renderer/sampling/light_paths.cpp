@@ -90,7 +90,8 @@ void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
                          : static_cast<int>(std::lround(share * static_cast<float>(total)));
   std::vector<SampleShare> directShares, indirectShares;
   for (const Emitter& e : emitters) {
-    const bool isLeftOut = counts_.withoutSky && e.kind == EmitterKind::sky && e.skySun == 0;
+    const bool isLeftOut = (counts_.withoutSky && e.kind == EmitterKind::sky && e.skySun == 0) ||
+                           (counts_.withoutSurfaces && e.kind == EmitterKind::surface);
     directShares.push_back(isLeftOut ? SampleShare() : shareOf(scene, e));
     indirectShares.push_back({isLeftOut ? 0.0f : e.referenceFlux, 1, false});
   }

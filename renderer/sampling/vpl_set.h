@@ -58,8 +58,9 @@ struct VplCounts {
   // Factor for the number of samples of indirect light and of the sky, of which view_importance.h
   // chooses some.
   int candidates = 1;
-  bool withoutSky = false;  // the sky gets none, but its suns do
-  int sunMaps = 128;        // shadow tiles per sun, in addition to the total (sun_shadow_tiles.h)
+  bool withoutSky = false;       // the sky gets none, but its suns do
+  bool withoutSurfaces = false;  // surfaces that emit get none
+  int sunMaps = 128;  // shadow tiles per sun, in addition to the total (sun_shadow_tiles.h)
 
   bool operator==(const VplCounts&) const = default;
 };

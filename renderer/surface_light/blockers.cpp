@@ -85,7 +85,8 @@ void Blockers::update(const RenderScene& scene, bool isNew,
 }
 
 Blockers::Found Blockers::find(const RenderScene& scene, const FlatLight& light, const vec3& x,
-                               const vec3& n, std::vector<std::array<vec3, 3>>& out) const {
+                               const vec3& n, std::vector<std::array<vec3, 3>>& out,
+                               size_t most) const {
   out.clear();
   const Shaft shaft(light, x, n);
   const auto enters = [&](const Bounds& box) { return !box.empty() && shaft.mayMeet(box); };
@@ -97,7 +98,7 @@ Blockers::Found Blockers::find(const RenderScene& scene, const FlatLight& light,
       const std::array<vec3, 3> triangle = triangleOf(scene, o, t);
       if (!shaft.mayMeet(triangle)) return true;
       out.push_back(triangle);
-      return !isMasked && out.size() <= kMost;
+      return !isMasked && out.size() <= most;
     });
   });
   if (!isComplete) return Found::tooMany;
@@ -105,10 +106,11 @@ Blockers::Found Blockers::find(const RenderScene& scene, const FlatLight& light,
 }
 
 std::optional<MaskedShare> maskedShare(const RenderScene& scene, const Blockers& blockers,
-                                       const FlatLight& light, const SurfaceSpot& spot) {
+                                       const FlatLight& light, const SurfaceSpot& spot,
+                                       size_t mostBlockers) {
   thread_local std::vector<std::array<vec3, 3>> triangles;
   const vec3 x = spot.rayOrigin();
-  const auto found = blockers.find(scene, light, x, spot.geometricNormal, triangles);
+  const auto found = blockers.find(scene, light, x, spot.geometricNormal, triangles, mostBlockers);
   if (found == Blockers::Found::tooMany) return std::nullopt;
   if (found == Blockers::Found::none) return MaskedShare{};
   VisiblePlaces places(light, x);

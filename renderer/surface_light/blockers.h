@@ -22,7 +22,7 @@ class Blockers {
   // kMost triangles, are too many.
   static constexpr size_t kMost = 16;
   Found find(const RenderScene& scene, const FlatLight& light, const vec3& x, const vec3& n,
-             std::vector<std::array<vec3, 3>>& out) const;
+             std::vector<std::array<vec3, 3>>& out, size_t most = kMost) const;
 
  private:
   std::vector<BoundsTree> triangles_;  // by object
@@ -36,6 +36,7 @@ struct MaskedShare {
 };
 // None if there are too many blockers, so that rays must decide.
 std::optional<MaskedShare> maskedShare(const RenderScene& scene, const Blockers& blockers,
-                                       const FlatLight& light, const SurfaceSpot& spot);
+                                       const FlatLight& light, const SurfaceSpot& spot,
+                                       size_t mostBlockers = Blockers::kMost);
 
 }  // namespace lamplighter

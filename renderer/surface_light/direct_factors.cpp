@@ -10,6 +10,7 @@
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
 #include "renderer/sampling/path_tracing.h"
+#include "renderer/surface_light/between.h"
 
 namespace lamplighter {
 namespace {
@@ -79,27 +80,6 @@ Bounds boundsOf(const DirectFactors::Scene& now, uint32_t leaf) {
   Bounds out;
   for (const SurfaceSpot& spot : spotsOf(now, leaf)) out.add(spot.position);
   return out;
-}
-
-// A sphere around a box.
-struct Ball {
-  vec3 centre;
-  float radius;
-  explicit Ball(const Bounds& box) : centre(box.centre()), radius(box.radius()) {}
-};
-
-// Whether the hull of two spheres may touch a third one. Conservative.
-bool mayBeBetween(const Ball& a, const Ball& b, const Ball& between) {
-  const vec3 axis = b.centre - a.centre;
-  const float length2 = glm::dot(axis, axis);
-  const float t = length2 > 0.0f
-                      ? std::clamp(glm::dot(between.centre - a.centre, axis) / length2, 0.0f, 1.0f)
-                      : 0.0f;
-  // The hull is thicker than the segment's radius there by no more than their difference.
-  const float thickest = std::max(a.radius, b.radius);
-  const float radius = 1.001f * (between.radius + thickest);
-  const vec3 d = between.centre - (a.centre + t * axis);
-  return glm::dot(d, d) <= radius * radius;
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ class EmitterFactor {
   bool isSampled() const { return light_.kind != EmitterKind::sky || light_.skySun > 0; }
   // Its places, if it is flat, has one colour and `side` is not 0 (visible_places.h).
   std::optional<FlatLight> flat(int side) const;
+  bool hasClosedForm() const { return !corners_.empty(); }
   // The light on a spot if nothing is between, of a light with a closed form; 0 below the surface.
   float unshadowed(const SurfaceSpot& spot) const;
   // Where it is; empty: far away.

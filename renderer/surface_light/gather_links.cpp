@@ -28,7 +28,15 @@ uint32_t interleaved(uint32_t x, uint32_t y) {
 
 float GatherLink::metres() const { return std::bit_cast<float>(uint32_t{distance} << 16); }
 
-std::vector<vec3> gatherDirections(int count, uint32_t scramble) {
+vec3 projectedDirection(const vec2& point, GatherProjection projection) {
+  constexpr float kTangentOf80 = 5.6712818f;
+  const vec3 d = sampleCosineHemisphere(point);
+  const bool isSeen = projection == GatherProjection::hemisphere ||
+                      std::max(std::abs(d.x), std::abs(d.y)) < kTangentOf80 * d.z;
+  return isSeen ? d : vec3(0.0f);
+}
+
+std::vector<vec3> gatherDirections(int count, uint32_t scramble, GatherProjection projection) {
   std::vector<vec2> points;
   for (int i = 0; i < count; ++i) points.push_back(sobol2(static_cast<uint32_t>(i), scramble));
   std::ranges::stable_sort(points, {}, [](const vec2& p) {
@@ -42,7 +50,7 @@ std::vector<vec3> gatherDirections(int count, uint32_t scramble) {
   for (size_t step = 16; step > 0; step /= 4)
     for (size_t i = 0; i < points.size(); ++i)
       if (i % step == first % step && (step == 16 || i % (4 * step) != first % (4 * step)))
-        directions.push_back(sampleCosineHemisphere(points[i]));
+        directions.push_back(projectedDirection(points[i], projection));
   return directions;
 }
 
@@ -74,12 +82,13 @@ size_t GatherLinks::raysOfStage(int stage) const {
   return (rays_ + step - 1) / step;
 }
 
-void GatherLinks::restart(const SurfaceMesh& mesh, int rays, uint32_t seed) {
+void GatherLinks::restart(const SurfaceMesh& mesh, int rays, uint32_t seed,
+                          GatherProjection projection) {
   *this = {};
   rays_ = static_cast<size_t>(rays);
   words_ = (rays_ + 63) / 64;
   for (uint32_t set = 0; set < kDirectionSets; ++set)
-    for (const vec3& d : gatherDirections(rays, hash4(seed, set, 0, kGatherSet)))
+    for (const vec3& d : gatherDirections(rays, hash4(seed, set, 0, kGatherSet), projection))
       directions_.push_back(d);
   std::vector<uint32_t> all(mesh.objects());
   std::iota(all.begin(), all.end(), 0u);

@@ -65,7 +65,8 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   hasOtherElements_ = false;
   const bool isSame = options == options_ && changes.none() && isStarted_;
   if (isSame && isDone_) return false;
-  const bool isFirst = !isStarted_ || changes.rebuilt || options.seed != options_.seed;
+  const bool isFirst = !isStarted_ || changes.rebuilt || options.seed != options_.seed ||
+                       options.projection != options_.projection;
   isStarted_ = true;
   const bool hasOtherOptions = !(options == options_);
   options_ = options;
@@ -83,7 +84,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   keptMesh_ = !isNew && moved_.empty() && !changes.materials;
   if (!isSame) counts_.rays += cuts_.update(scene, rays, mesh_, isNew, moved_, boxes_);
   if (isNew) {
-    links_.restart(mesh_, raysOfSample, options.seed);
+    links_.restart(mesh_, raysOfSample, options.seed, options.projection);
   } else if (!moved_.empty()) {
     if (!mesh.objects.empty()) links_.renew(mesh_, mesh.objects);
     links_.outdate(scene, rays, mesh_, cuts_, moved_, boxes_);

@@ -20,6 +20,7 @@ struct SurfaceLightOptions {
   size_t linkBytes = size_t{64} << 20;
   int mask = 0;  // DirectFactors::Scene
   uint32_t seed = 1;
+  GatherProjection projection = GatherProjection::hemisphere;
   SurfaceLightPart part = SurfaceLightPart::bounced;
   bool operator==(const SurfaceLightOptions&) const = default;
 };

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "renderer/base/number_ranges.h"
 #include "renderer/patches/topology.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/surface_light/number_ranges.h"
 #include "renderer/surface_light/surface_shape.h"
 
 namespace lamplighter {

@@ -56,6 +56,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   StageTimer stages(in, kManyLightsStages, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0,
                   kernels_->traits().tracesShadowMaps);
+  options.withoutSurfaces = withoutSurfaces_;
   GiOutput out = renderSamples(in, options, stages, stats);
   addMeshes(in, options, stages, out, stats);
   out.stats = published(stats, manyLightsStatistics());
@@ -381,6 +382,7 @@ Inspection ManyLights::inspect() const {
   Inspection out;
   out.lights = lights_.table().samples;
   out.lightsLeaveOutSky = paths_.counts().withoutSky;
+  out.lightsLeaveOutSurfaces = paths_.counts().withoutSurfaces;
   if (visibility_) out.patches = std::make_shared<DatabasePatches>(*visibility_);
   if (visibility_ && lightMaps_)
     out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);

@@ -35,6 +35,12 @@ class ManyLights final : public GiMethod {
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(*kernels_, std::move(computeTransfer_)); }
   Inspection inspect() const override;
+  // Whether another carrier has the direct light of surfaces that emit, so that they get no light
+  // samples.
+  void leaveOutSurfaces(bool areLeftOut) { withoutSurfaces_ = areLeftOut; }
+  // Whether the backend has the G-buffer of the view without a shift. To be set by those who draw
+  // another one between frames.
+  bool& gbufferIsCurrent() { return gbufferIsCurrent_; }
   // Of light on surfaces, in the last frame.
   const SurfaceLight::Counts& surfaceCounts() const { return meshes_.counts(); }
 
@@ -79,7 +85,7 @@ class ManyLights final : public GiMethod {
 
   ManyLightsKernels* kernels_;  // of the backend
   Transfers::Compute computeTransfer_;
-  bool started_ = false, lightOnly_ = false;
+  bool started_ = false, lightOnly_ = false, withoutSurfaces_ = false;
   float lightMapTexel_ = 0.0f;  // spacing in the picture [m]
   LightPart part_ = LightPart::all;
   PartLights partLights_;  // if only a part is shown

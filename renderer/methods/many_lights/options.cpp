@@ -53,6 +53,7 @@ VplCounts ManyLightsOptions::counts() const {
   counts.seed = static_cast<uint32_t>(seed);
   counts.candidates = importance;
   counts.withoutSky = useMeshes();
+  counts.withoutSurfaces = withoutSurfaces;
   counts.sunMaps = sunMaps;
   return counts;
 }

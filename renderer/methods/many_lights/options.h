@@ -15,6 +15,8 @@ struct ManyLightsOptions : ManyLightsParameters {
   ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor);
   ManyLightsOptions() = default;
 
+  // Another carrier has the direct light of surfaces.
+  bool withoutSurfaces = false;
   // Bounces of light that is kept on surfaces; 0: none is. `bounces` are those of light samples.
   int meshBounces = 0;
   // They show the sky, too, without its suns.

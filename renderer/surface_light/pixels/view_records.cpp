@@ -56,7 +56,7 @@ float likeness(const SurfaceSpot& a, const SurfaceSpot& b, float radius) {
 
 }  // namespace
 
-void ViewRecords::restart(const View& view, uint32_t seed) {
+void ViewRecords::restart(const View& view, uint32_t seed, GatherProjection projection) {
   *this = {};
   view_ = view;
   for (size_t l = 0; l < kSteps.size(); ++l) {
@@ -65,7 +65,7 @@ void ViewRecords::restart(const View& view, uint32_t seed) {
   }
   // Consecutive points of a Sobol sequence are spread as evenly as all of them.
   for (uint32_t i = 0; i < kSets * kRays; ++i)
-    directions_.push_back(sampleCosineHemisphere(sobol2(i, hash4(seed, 0, 0, kRecordSet))));
+    directions_.push_back(projectedDirection(sobol2(i, hash4(seed, 0, 0, kRecordSet)), projection));
 }
 
 float ViewRecords::pixelSize(const vec3& position) const {
@@ -308,7 +308,10 @@ bool ViewRecords::find(int x, int y, uint32_t object, const SurfaceSpot& spot, P
     weights.fill(0.0f);
     around(
         x, y, levels_.size(),
-        [&](const Record& r) { return r.object == object ? likeness(r.spot, spot, r.radius) : 0.0f; }, take);
+        [&](const Record& r) {
+          return r.object == object ? likeness(r.spot, spot, r.radius) : 0.0f;
+        },
+        take);
   }
   if (weights[0] < kLeastWeight) return false;
   float sum = 0.0f;

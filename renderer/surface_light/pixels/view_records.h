@@ -24,7 +24,7 @@ class ViewRecords {
     std::array<float, 4> weights{};
   };
 
-  void restart(const View& view, uint32_t seed);
+  void restart(const View& view, uint32_t seed, GatherProjection projection);
   // After each SurfaceLight::update(): which rays are out of date.
   void outdate(const GatherScene& scene, const SurfaceLight& light);
   // Chooses records for the G-buffer of the view and traces up to about `most` rays, but at least

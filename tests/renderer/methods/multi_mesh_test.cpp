@@ -48,11 +48,12 @@ TEST(MultiMesh, IsNearTheReference) {
   EXPECT_LT(std::abs(m.bias - 1.0), 0.01);
 }
 
-TEST(MultiMesh, IsManyLightsWithLightOnSurfaces) {
+TEST(MultiMesh, WithLightSamplesIsManyLights) {
   const Scene scene = boxInRoom();
   const View view = test::lookAt(vec3(1.2f, 0.6f, 1.9f), vec3(-0.1f, -0.7f, 0.0f), 48, 36);
   Settings settings;
   settings.set("vpls", 40);
+  settings.set("direct", std::string("samples"));
   settings.set("bounces", 2);
   const GiOutput own = settled("multi_mesh", scene, view, settings);
   settings.set("indirect", std::string("meshes"));

@@ -1,7 +1,8 @@
 // The error of many_lights against the path-traced reference over the number of VPLs, on every
 // scene, with 0, 1 and 5 bounces. The loss by clamping is listed separately:
 // docs/results/convergence.md.
-//   lamplighter_convergence [--data FOLDER] [PART_OF_A_SCENE'S_PATH...]
+//   lamplighter_convergence [--data FOLDER] [--carriers] [PART_OF_A_SCENE'S_PATH...]
+// --carriers: instead, the error by what carries bounced light and that of the sky.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -127,6 +128,37 @@ Image manyLights(const Scene& scene, const View& view, const std::string& techni
   return settled(scene, view, "many_lights", s);
 }
 
+// Light samples of the table of carriers.
+constexpr int kDefaultCount = 300;
+
+// Its error, without the noise of the reference.
+double errorOf(const Image& picture, const Reference& truth, const Image& mask) {
+  const double all = compareImages(picture, truth.mean, &mask).relRmse;
+  return std::sqrt(std::max(0.0, all * all - truth.noise * truth.noise));
+}
+
+void addCarriers(const fs::path& path) {
+  const Scene scene = loadGltf(path).scene;
+  const View view = viewOfScene(scene);
+  const Image mask = surfaceMask(scene, view);
+  for (const int bounces : kBounces) {
+    const Reference truth = reference(scene, view, mask, bounces);
+    std::string line = fmt::format("| {} | {} |", path.stem().string(), bounces);
+    for (const auto& [method, indirect] : {std::pair("many_lights", "samples"),
+                                           {"many_lights", "meshes"},
+                                           {"multi_mesh", "meshes"}}) {
+      Settings s;
+      s.set("bounces", bounces);
+      s.set("vpls", kDefaultCount);
+      s.set("antialias", kAntialias);
+      s.set("indirect", std::string(indirect));
+      const double error = errorOf(settled(scene, view, method, s), truth, mask);
+      line += fmt::format(" {:.1f}% |", 100 * error);
+    }
+    std::cout << fmt::format("{} {:.1f}% |\n", line, 100 * truth.noise) << std::flush;
+  }
+}
+
 void addScene(const fs::path& path, const fs::path& folder) {
   const Scene scene = loadGltf(path).scene;
   const View view = viewOfScene(scene);
@@ -140,9 +172,7 @@ void addScene(const fs::path& path, const fs::path& folder) {
     Image last;
     for (const int vpls : kCounts) {
       last = manyLights(scene, view, techniqueFor(name), bounces, vpls);
-      const double all = compareImages(last, truth.mean, &mask).relRmse;
-      // Subtracts the noise of the reference.
-      const double error = std::sqrt(std::max(0.0, all * all - truth.noise * truth.noise));
+      const double error = errorOf(last, truth, mask);
       line += fmt::format(" {:.1f}% |", 100 * error);
       data << vpls << '\t' << 100 * error << '\n';
     }
@@ -158,10 +188,13 @@ void addScene(const fs::path& path, const fs::path& folder) {
 
 int run(const std::vector<std::string>& arguments) {
   fs::path folder;
+  bool ofCarriers = false;
   std::vector<std::string> wanted;
   for (size_t i = 0; i < arguments.size(); ++i) {
     if (arguments[i] == "--data" && i + 1 < arguments.size())
       folder = arguments[++i];
+    else if (arguments[i] == "--carriers")
+      ofCarriers = true;
     else
       wanted.push_back(arguments[i]);
   }
@@ -169,15 +202,26 @@ int run(const std::vector<std::string>& arguments) {
   for (const auto& row : test::readTable(test::sharedScenes() / "scenes.tsv"))
     if (row.at("file").find("dungeon-kit") == std::string::npos)
       scenes.push_back(test::sharedScenes() / row.at("file"));
-  std::cout << "\n| scene | bounces |";
-  for (const int vpls : kCounts) std::cout << ' ' << vpls << " |";
-  std::cout << " bias | of the clamp | noise |\n| --- | --- | --- | --- | --- | --- | --- | --- | "
-               "--- | --- |\n";
+  if (ofCarriers) {
+    std::cout
+        << "\n| scene | bounces | `indirect=samples` | `indirect=meshes` | `multi_mesh` | noise "
+           "|\n| --- | --- | --- | --- | --- | --- |\n";
+  } else {
+    std::cout << "\n| scene | bounces |";
+    for (const int vpls : kCounts) std::cout << ' ' << vpls << " |";
+    std::cout
+        << " bias | of the clamp | noise |\n| --- | --- | --- | --- | --- | --- | --- | --- | "
+           "--- | --- |\n";
+  }
   for (const fs::path& scene : scenes) {
     const bool isWanted = std::any_of(wanted.begin(), wanted.end(), [&](const std::string& part) {
       return scene.string().find(part) != std::string::npos;
     });
-    if (wanted.empty() || isWanted) addScene(scene, folder);
+    if (!wanted.empty() && !isWanted) continue;
+    if (ofCarriers)
+      addCarriers(scene);
+    else
+      addScene(scene, folder);
   }
   return 0;
 }

@@ -1,0 +1,58 @@
+// Quad-trees over the triangles of a scene: a node is divided into four at the midpoints of its
+// edges (paper 4, section 3). The trees have all vertices and divisions that any light has asked
+// for; which of them a light shows is a cut (mesh_cut.h).
+#pragma once
+
+#include <array>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "renderer/scene/render_scene.h"
+#include "renderer/surface_light/direct_meshes/visible_triangles.h"
+
+namespace lamplighter {
+
+class SplitTree {
+ public:
+  static constexpr uint32_t kNone = 0xffffffffu;
+
+  // Vertices of one place and normal are one, whatever triangles they belong to. World space.
+  struct Vertex {
+    vec3 position{0.0f}, normal{0.0f};  // unit, on the side that is lit
+    uint32_t leftOutBy = 0;             // light_linking.h
+    bool operator==(const Vertex&) const = default;
+  };
+  // Edge k lies between corners k and k + 1, middle k halfway on it. Child k < 3 has corner k;
+  // child 3 has the middles 1, 2 and 0 as its corners.
+  struct Node {
+    std::array<uint32_t, 3> corners{}, middles{kNone, kNone, kNone};
+    uint32_t children = kNone;  // the first of four
+  };
+
+  // The node of a whole triangle; made if there is none.
+  uint32_t root(const RenderScene& scene, const VisibleTriangles::Triangle& triangle);
+  // Of objects whose triangles are at other places now.
+  void forgetRoots(std::span<const uint32_t> objects);
+  // Divides a node that has no children.
+  void split(uint32_t node);
+
+  const Node& node(uint32_t number) const { return nodes_[number]; }
+  const Vertex& vertex(uint32_t number) const { return vertices_[number]; }
+  size_t vertices() const { return vertices_.size(); }
+  size_t bytes() const;
+
+ private:
+  struct Hash {
+    size_t operator()(const Vertex& v) const;
+  };
+  uint32_t number(const Vertex& vertex);
+  uint32_t middle(uint32_t a, uint32_t b);
+
+  std::vector<Vertex> vertices_;
+  std::vector<Node> nodes_;
+  std::unordered_map<Vertex, uint32_t, Hash> numbers_;
+  std::unordered_map<uint64_t, uint32_t> roots_;
+};
+
+}  // namespace lamplighter
