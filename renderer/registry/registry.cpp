@@ -8,13 +8,14 @@
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/methods/multi_mesh/multi_mesh.h"
 #include "renderer/methods/path_tracer/reference_method.h"
+#include "renderer/methods/surface_shadow_maps/surface_shadow_maps.h"
 
 namespace lamplighter {
 namespace {
 
 std::deque<MethodInfo>& list() {
-  static std::deque<MethodInfo> all{manyLightsInfo(), multiMeshInfo(), ambientOcclusionInfo(),
-                                    referenceInfo()};
+  static std::deque<MethodInfo> all{manyLightsInfo(), multiMeshInfo(), surfaceShadowMapsInfo(),
+                                    ambientOcclusionInfo(), referenceInfo()};
   return all;
 }
 

@@ -10,9 +10,6 @@
 namespace lamplighter {
 namespace {
 
-// Cosine of 2.2°: the sky so near a sun counts as part of it (SkyMap::suns()).
-constexpr float kSunCosine = 0.99926f;
-
 // While anything changes, the light is gathered by this share of the rays if there are many.
 constexpr int kLiveShare = 4;
 constexpr size_t kManyLinks = size_t{1} << 22;
@@ -37,13 +34,6 @@ int gatherRays(const SurfaceLightOptions& options, size_t samples) {
          samples * sizeof(GatherLink) * static_cast<size_t>(rays) > options.linkBytes)
     rays = std::max(kFewRays, rays / 2);
   return rays;
-}
-
-// Radiance of the sky without its suns, which are lights of their own.
-vec3 skyWithoutSuns(const SkySampler& sky, const vec3& towards) {
-  for (size_t i = 0; i < sky.sunCount(); ++i)
-    if (glm::dot(sky.sun(i).towards, towards) > kSunCosine) return vec3(0.0f);
-  return sky.radiance(towards);
 }
 
 // Where the objects that moved were and are.
@@ -215,7 +205,7 @@ void SurfaceLight::findSky(const RenderScene& scene, std::span<const uint32_t> s
 
 vec3 SurfaceLight::skyTowards(const vec3& direction) const {
   if (seenSky_.isBlack()) return vec3(0.0f);
-  return skyWithoutSuns(lights_.referenceSky(), direction) / lights_.skyReference();
+  return lights_.referenceSky().withoutSuns(direction) / lights_.skyReference();
 }
 
 vec3 SurfaceLight::skyAlong(const RenderScene& scene, uint32_t object,
@@ -226,8 +216,8 @@ vec3 SurfaceLight::skyAlong(const RenderScene& scene, uint32_t object,
   vec3 sum(0.0f);
   for (size_t i = 0; i < links.size(); ++i)
     if (links[i].leaf == GatherLink::kSky)
-      sum += skyWithoutSuns(lights_.referenceSky(),
-                            gatherDirection(spots[i % spots.size()], directions[i]));
+      sum += lights_.referenceSky().withoutSuns(
+          gatherDirection(spots[i % spots.size()], directions[i]));
   return kPi / static_cast<float>(links.size()) * sum / lights_.skyReference();
 }
 

@@ -90,6 +90,14 @@ SkyMap::Light SkySampler::sun(size_t i, vec2 u) const {
   return light;
 }
 
+vec3 SkySampler::withoutSuns(const vec3& towards) const {
+  // Cosine of 2.2°: the sky so near a sun counts as part of it (SkyMap::suns()).
+  constexpr float kSunCosine = 0.99926f;
+  for (size_t i = 0; i < sunCount(); ++i)
+    if (glm::dot(sun(i).towards, towards) > kSunCosine) return vec3(0.0f);
+  return radiance(towards);
+}
+
 SkyMap::Direction SkySampler::sampleDensity(vec2 u) const {
   if (sky_.kind == SkyKind::constant) return {sampleSphere(u), 1.0f / (4.0f * kPi)};
   if (sky_.kind == SkyKind::image) {

@@ -146,7 +146,8 @@ void addCarriers(const fs::path& path) {
     std::string line = fmt::format("| {} | {} |", path.stem().string(), bounces);
     for (const auto& [method, indirect] : {std::pair("many_lights", "samples"),
                                            {"many_lights", "meshes"},
-                                           {"multi_mesh", "meshes"}}) {
+                                           {"multi_mesh", "meshes"},
+                                           {"surface_shadow_maps", "samples"}}) {
       Settings s;
       s.set("bounces", bounces);
       s.set("vpls", kDefaultCount);
@@ -203,9 +204,8 @@ int run(const std::vector<std::string>& arguments) {
     if (row.at("file").find("dungeon-kit") == std::string::npos)
       scenes.push_back(test::sharedScenes() / row.at("file"));
   if (ofCarriers) {
-    std::cout
-        << "\n| scene | bounces | `indirect=samples` | `indirect=meshes` | `multi_mesh` | noise "
-           "|\n| --- | --- | --- | --- | --- | --- |\n";
+    std::cout << "\n| scene | bounces | `indirect=samples` | `indirect=meshes` | `multi_mesh` | "
+                 "`surface_shadow_maps` | noise |\n| --- | --- | --- | --- | --- | --- | --- |\n";
   } else {
     std::cout << "\n| scene | bounces |";
     for (const int vpls : kCounts) std::cout << ' ' << vpls << " |";

@@ -1,0 +1,106 @@
+#include "renderer/methods/surface_shadow_maps/atlas_picture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/backends/gbuffer_view.h"
+#include "renderer/methods/pixel_jitter.h"
+#include "renderer/surface_light/pixels/seen_triangle.h"
+
+namespace lamplighter {
+
+AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelRadiosity& light,
+                                            const SurfacePictureOptions& options) const {
+  const GBufferView gbuffer = in.backend.hostGBuffer();
+  Sample sample(static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height));
+  tbb::parallel_for(0, view_.height, [&](int y) {
+    for (int x = 0; x < view_.width; ++x) {
+      if (!gbuffer.isHit(x, y)) continue;
+      const GBufferPoint p = gbuffer.at(x, y);
+      const ObjectAtlas& own = light.atlases()[p.object];
+      const SeenTriangle seen(in.scene, p);
+      if (!own.atlas || !seen.isSound || own.atlas->chartOfTriangle[p.triangle] == kNone) continue;
+      Pixel& out = sample[static_cast<size_t>(y) * static_cast<size_t>(view_.width) +
+                          static_cast<size_t>(x)];
+      out.blend =
+          light.texels().blendAt(p.object, seen.isBack, own.texelsOf(p.triangle, p.position));
+      const PixelReflectance r = reflectanceOf(in.scene, p, seen.weights, view_.eye, options);
+      out.reflectance = r.diffuse + r.lobe;
+    }
+  });
+  return sample;
+}
+
+std::vector<uint32_t> AtlasPicture::texels() const {
+  std::vector<uint32_t> out;
+  if (samples_.empty()) return out;
+  for (const Pixel& p : samples_.front()) {
+    const auto largest = std::ranges::max_element(p.blend.weights) - p.blend.weights.begin();
+    const auto k = static_cast<size_t>(largest);
+    out.push_back(p.blend.weights[k] > 0.0f ? p.blend.texels[k] : TexelSet::kNone);
+  }
+  return out;
+}
+
+std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
+                                                   const std::shared_ptr<RadianceImage>& picture,
+                                                   const TexelRadiosity& light, int antialias,
+                                                   const SurfacePictureOptions& options,
+                                                   bool& gbufferIsCurrent) {
+  const RenderSceneChanges changes = std::exchange(unseen_, {});
+  if (light.irradiance().empty()) {
+    samples_.clear();
+    shown_ = nullptr;
+    return picture;
+  }
+  if (changes.surfaces() || changes.objects || !(in.view == view_) || options != options_)
+    samples_.clear();
+  view_ = in.view;
+  options_ = options;
+  if (antialias > 1 && antialias != antialias_) {
+    antialias_ = antialias;
+    samples_.resize(std::min<size_t>(samples_.size(), 1));
+  }
+  if (samples_.empty()) {
+    if (!gbufferIsCurrent) in.backend.renderGBuffer(view_, vec2(0.0f));
+    gbufferIsCurrent = true;
+    samples_.push_back(sampleOf(in, light, options));
+    shown_ = nullptr;
+  } else if (light.isDone() && antialias > 1 && static_cast<int>(samples_.size()) <= antialias) {
+    in.backend.renderGBuffer(view_, pixelJitter(static_cast<int>(samples_.size()) - 1, antialias));
+    gbufferIsCurrent = false;
+    samples_.push_back(sampleOf(in, light, options));
+  }
+  // The shifted ones when there are all.
+  const bool isSmooth =
+      changes.none() && antialias > 1 && static_cast<int>(samples_.size()) == antialias + 1;
+  const std::span<const Sample> parts =
+      isSmooth ? std::span(samples_).subspan(1) : std::span(samples_).first(1);
+  const auto shownOf = static_cast<int>(parts.size());
+  if (shown_ && picture == under_ && shownOf == shownOf_ && version_ == light.version())
+    return shown_;
+  version_ = light.version();
+  Image sum = picture->pixels();
+  const float scale = 1.0f / (kPi * static_cast<float>(parts.size()));
+  const std::vector<vec3>& irradiance = light.irradiance();
+  tbb::parallel_for(0, sum.height, [&](int y) {
+    const size_t first = static_cast<size_t>(y) * static_cast<size_t>(sum.width);
+    for (size_t i = first; i < first + static_cast<size_t>(sum.width); ++i) {
+      for (const Sample& part : parts) {
+        const Pixel& p = part[i];
+        vec3 here(0.0f);
+        for (size_t k = 0; k < 4; ++k)
+          if (p.blend.weights[k] > 0.0f) here += p.blend.weights[k] * irradiance[p.blend.texels[k]];
+        sum.pixels[i] += scale * p.reflectance * here;
+      }
+    }
+  });
+  under_ = picture;
+  shownOf_ = shownOf;
+  shown_ = std::make_shared<HostImage>(std::move(sum));
+  return shown_;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,56 @@
+// Light of texels at the pixels of a view.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/methods/surface_shadow_maps/texel_radiosity.h"
+#include "renderer/surface_light/pixels/pixel_reflectance.h"
+
+namespace lamplighter {
+
+class AtlasPicture {
+ public:
+  // To be called with the changes of each frame.
+  void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
+  // `picture` plus the bounced light. When it is final, the mean of `antialias` shifted pictures,
+  // one more in each frame. `gbufferIsCurrent`: whether the backend has the G-buffer of the view
+  // without a shift.
+  std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
+                                       const std::shared_ptr<RadianceImage>& picture,
+                                       const TexelRadiosity& light, int antialias,
+                                       const SurfacePictureOptions& options,
+                                       bool& gbufferIsCurrent);
+  // Whether the last picture has all shifted ones.
+  bool isDone(int antialias) const {
+    return antialias <= 1 || static_cast<int>(samples_.size()) == antialias + 1;
+  }
+  int framesLeft(int antialias) const {
+    return antialias <= 1 ? 0 : antialias + 1 - static_cast<int>(samples_.size());
+  }
+  void forget() { *this = AtlasPicture(); }
+  const View& view() const { return view_; }
+  // For views: the texel with the largest share of each pixel of the picture without a shift, or
+  // TexelSet::kNone.
+  std::vector<uint32_t> texels() const;
+
+ private:
+  struct Pixel {
+    TexelBlend blend;
+    vec3 reflectance{0.0f};  // share of even light, times π
+  };
+  using Sample = std::vector<Pixel>;
+  Sample sampleOf(const FrameInputs& in, const TexelRadiosity& light,
+                  const SurfacePictureOptions& options) const;
+
+  View view_;
+  SurfacePictureOptions options_;
+  uint32_t version_ = 0;  // of the light
+  RenderSceneChanges unseen_;
+  std::vector<Sample> samples_;  // the first without a shift
+  std::shared_ptr<RadianceImage> under_, shown_;
+  int shownOf_ = 0;    // samples
+  int antialias_ = 0;  // for which the samples are shifted
+};
+
+}  // namespace lamplighter

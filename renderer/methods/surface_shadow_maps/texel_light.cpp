@@ -1,0 +1,121 @@
+#include "renderer/methods/surface_shadow_maps/texel_light.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/sampling/path_tracing.h"
+#include "renderer/scene/light_linking.h"
+#include "renderer/surface_light/emitter_factor.h"
+
+namespace lamplighter {
+namespace {
+
+// Rays of a texel to a light that is not a point.
+constexpr size_t kRays = 16;
+
+RenderPunctual withoutBrightness(RenderPunctual light) {
+  light.light.intensity = light.nominal = vec3(0.0f);
+  return light;
+}
+
+}  // namespace
+
+uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
+                            const TexelSet& texels, std::span<const uint32_t> movedObjects,
+                            uint32_t seed, uint64_t most) {
+  changed_ = false;
+  const std::vector<VplId> ids = emitterIds(lights);
+  std::vector<Column> before = std::exchange(columns_, std::vector<Column>(ids.size()));
+  for (size_t e = 0; e < ids.size(); ++e) {
+    const Emitter& light = lights.emitters()[e];
+    Column& column = columns_[e];
+    column.id = ids[e];
+    if (light.kind == EmitterKind::punctual)
+      column.light = withoutBrightness(scene.punctuals[light.punctual]);
+    const auto old = std::ranges::find(before, column.id, &Column::id);
+    if (old != before.end()) {
+      column.factors = std::move(old->factors);
+      const bool isMoved = light.kind == EmitterKind::surface &&
+                           std::ranges::find(movedObjects, light.object) != movedObjects.end();
+      if (old->light == column.light && !isMoved) column.known = old->known;
+    } else {
+      changed_ = true;
+    }
+    column.factors.resize(texels.size(), vec3(0.0f));
+  }
+  std::atomic<uint64_t> traced = 0;
+  for (size_t e = 0; e < columns_.size() && traced < most; ++e) {
+    Column& column = columns_[e];
+    const EmitterFactor factor(scene, lights, e, column.id, seed);
+    const bool isPoint = lights.emitters()[e].kind == EmitterKind::punctual;
+    const size_t raysOfTexel = factor.isSampled() ? (isPoint ? 1 : kRays) : 0;
+    if (raysOfTexel == 0) column.known = texels.size();
+    if (column.known == texels.size()) continue;
+    const size_t end =
+        std::min(texels.size(), column.known + std::max<size_t>(1, (most - traced) / raysOfTexel));
+    tbb::parallel_for(column.known, end, [&](size_t t) {
+      const SurfaceTexel& texel = texels[t];
+      const std::vector<SurfaceSpot> spots(raysOfTexel, texel.spot);
+      std::vector<LightRay> found;
+      factor.raysTo(spots, scene.objects[texel.object].leftOutBy, static_cast<uint32_t>(t), found);
+      vec3 sum(0.0f);
+      for (const LightRay& r : found)
+        if (!rays.occluded(r.ray)) sum += r.irradiance;
+      column.factors[t] = sum / static_cast<float>(raysOfTexel);
+      traced += found.size();
+    });
+    column.known = end;
+    changed_ = true;
+  }
+  return traced;
+}
+
+void TexelLight::updateSky(const RenderScene& scene, const LightSet& lights, const TexelSet& texels,
+                           const SurfaceDepths& depths) {
+  const Sky sky = lights.unitSky();
+  if (sky == sky_ && skyLight_.size() == texels.size()) return;
+  sky_ = sky;
+  changed_ = true;
+  skyLight_.assign(texels.size(), vec3(0.0f));
+  if (sky.isBlack()) return;
+  const DepthMapLayout& layout = depths.layout();
+  std::vector<vec3> directions, light;  // by pixel; radiance times solid angle
+  for (uint32_t q = 0; q < layout.pixels(); ++q) {
+    directions.push_back(layout.directionOf(q));
+    light.push_back(layout.solidAngleOf(q) * lights.referenceSky().withoutSuns(directions[q]) /
+                    lights.skyReference());
+  }
+  tbb::parallel_for(size_t{0}, texels.size(), [&](size_t t) {
+    const SurfaceTexel& texel = texels[t];
+    if (isLeftOut(scene.objects[texel.object].leftOutBy, scene.skyLink)) return;
+    for (uint32_t q = 0; q < layout.pixels(); ++q) {
+      const float cosine = glm::dot(texel.spot.normal, directions[q]);
+      if (cosine > 0.0f && depths.isOpen(t, q)) skyLight_[t] += cosine * light[q];
+    }
+  });
+}
+
+bool TexelLight::isDone() const {
+  return std::ranges::all_of(columns_, [](const Column& c) { return c.known == c.factors.size(); });
+}
+
+void TexelLight::sum(const LightSet& lights, std::vector<vec3>& out) const {
+  vec3 sky(0.0f);
+  for (const Emitter& e : lights.emitters())
+    if (e.kind == EmitterKind::sky && e.skySun == 0) sky = e.brightness();
+  tbb::parallel_for(size_t{0}, out.size(), [&](size_t t) {
+    out[t] = skyLight_.size() > t ? sky * skyLight_[t] : vec3(0.0f);
+    for (size_t e = 0; e < columns_.size(); ++e)
+      out[t] += lights.emitters()[e].brightness() * columns_[e].factors[t];
+  });
+}
+
+size_t TexelLight::bytes() const {
+  size_t bytes = skyLight_.size() * sizeof(vec3);
+  for (const Column& c : columns_) bytes += c.factors.size() * sizeof(vec3);
+  return bytes;
+}
+
+}  // namespace lamplighter

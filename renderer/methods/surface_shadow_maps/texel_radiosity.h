@@ -1,0 +1,88 @@
+// Bounced light of a scene at its texels: hierarchical radiosity along kept links, with visibility
+// stored on the surfaces (paper 3, sections 3 and 4).
+//
+// After geometry changed, depths, then links are found over several frames; meanwhile texels keep
+// their light. When all is found, the light is that of a fresh start, bit for bit.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/methods/gi_method.h"
+#include "renderer/methods/surface_shadow_maps/texel_light.h"
+#include "renderer/surface_depths/texel_links.h"
+
+namespace lamplighter {
+
+// What decides whether texels see each other.
+enum class TexelVisibility : uint8_t { stored, rays };
+
+struct TexelRadiosityOptions {
+  float texel = 0.25f;  // side where memory allows it [m]
+  TexelOrder order = TexelOrder::zigzag;
+  DepthMapLayout map;
+  TexelVisibility visibility = TexelVisibility::stored;
+  float linkError = 0.005f;           // form factor above which nodes are refined
+  size_t memory = size_t{256} << 20;  // of depths and links, about
+  int bounces = 2;
+  uint32_t seed = 1;
+  bool operator==(const TexelRadiosityOptions&) const = default;
+};
+
+class TexelRadiosity {
+ public:
+  // Takes the changes of each frame, also of those without update().
+  void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
+  // Goes on by about `mostRays`.
+  void update(const RenderScene& scene, Services& services, const TexelRadiosityOptions& options,
+              uint64_t mostRays);
+  // Whether the light is that of a fresh start.
+  bool isDone() const;
+  // Share of depths and links that is found.
+  float progress() const;
+  // Differs if irradiance() or the places of texels differ.
+  uint32_t version() const { return version_; }
+
+  // Of bounced light, by texel [W/m²]; empty before it is found for the first time.
+  const std::vector<vec3>& irradiance() const { return irradiance_; }
+  const TexelSet& texels() const { return texels_; }
+  // By object.
+  const std::vector<ObjectAtlas>& atlases() const { return atlases_; }
+  const SurfaceDepths& depths() const { return depths_; }
+  const TexelTree& tree() const { return tree_; }
+  const TexelLinks& links() const { return links_; }
+
+  // Of the last update.
+  struct Counts {
+    uint64_t rays = 0;
+    float texel = 0.0f;  // side [m]
+    size_t bytes = 0;
+  };
+  const Counts& counts() const { return counts_; }
+  void forget() { *this = TexelRadiosity(); }
+
+ private:
+  bool takeGeometry(const RenderScene& scene, Services& services,
+                    const RenderSceneChanges& changes);
+  void findLinks(const RenderScene& scene, const RayCaster& rays, size_t most);
+  void findAlbedo(const RenderScene& scene);
+  void bounce();
+
+  TexelRadiosityOptions options_;
+  RenderSceneChanges unseen_;
+  LightSet lights_;
+  std::vector<ObjectAtlas> atlases_;
+  TexelSet texels_;
+  TexelTree tree_;
+  SurfaceDepths depths_;
+  TexelLinks links_;
+  TexelLight light_;
+  std::vector<vec3> albedo_;      // by texel
+  std::vector<vec3> irradiance_;  // by texel
+  bool usesDepths_ = true;
+  bool isStarted_ = false, isLit_ = false;  // isLit_: irradiance_ is that of now
+  uint32_t version_ = 0;
+  Counts counts_;
+};
+
+}  // namespace lamplighter

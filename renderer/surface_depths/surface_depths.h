@@ -1,0 +1,66 @@
+// What each texel of the surface sees in all directions, compressed along coherent runs of texels:
+// visibility between any texel and any point without a ray (paper 3, "Coherent surface shadow
+// maps").
+//
+// Area lights block nothing, so that they can move freely.
+//
+// A value of a pixel lies between the first surface and the next one that faces the texel, so it
+// answers for every point on a surface that the texel might light. Depths are distances from the
+// texel in 65,534 steps of the diameter of the scene.
+#pragma once
+
+#include <vector>
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/surface_depths/depth_intervals.h"
+#include "renderer/surface_depths/depth_map_layout.h"
+#include "renderer/surface_depths/texel_set.h"
+
+namespace lamplighter {
+
+class SurfaceDepths {
+ public:
+  // Forgets everything. Texels of one side of an object are in runs of their own.
+  void restart(const RenderScene& scene, const TexelSet& texels, const DepthMapLayout& layout);
+  // Traces up to about `most` rays more. Returns their number. The result does not depend on `most`
+  // or on the number of threads. `scene` and `texels`: those of restart().
+  uint64_t goOn(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,
+                uint64_t most);
+  bool isDone() const { return nextUnit_ == units(); }
+  // Share of the work that is done.
+  float progress() const;
+
+  // Whether nothing is between the texel and a point of a surface. False below the texel.
+  bool sees(const SurfaceTexel& texel, size_t number, const vec3& point) const;
+  // Whether the texel sees the sky in the direction of a pixel.
+  bool isOpen(size_t texel, uint32_t pixel) const { return valueOf(texel, pixel) == kOpen; }
+  static constexpr uint16_t kOpen = 0xffffu;
+  uint16_t valueOf(size_t texel, uint32_t pixel) const;
+
+  const DepthMapLayout& layout() const { return layout_; }
+  size_t segments() const;
+  // Pixels of all maps: what the segments stand for.
+  size_t uncompressed() const { return texels_ * layout_.pixels(); }
+  size_t bytes() const;
+
+ private:
+  // The texels from `first` on; the segments of pixel q are [starts[q], starts[q + 1]).
+  struct Run {
+    uint32_t first = 0, count = 0;
+    std::vector<uint32_t> starts;
+    DepthSegments segments;
+  };
+  size_t blocks() const;  // of pixels
+  size_t units() const { return runs_.size() * blocks(); }
+  uint64_t trace(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,
+                 const Run& run, uint32_t pixel, std::vector<DepthInterval>& out) const;
+
+  DepthMapLayout layout_;
+  float steps_ = 1.0f;  // per metre
+  std::vector<Run> runs_;
+  std::vector<uint32_t> runOf_;  // by texel
+  size_t texels_ = 0;
+  size_t nextUnit_ = 0;  // runs times blocks of pixels
+};
+
+}  // namespace lamplighter

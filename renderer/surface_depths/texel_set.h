@@ -1,0 +1,71 @@
+// The surface of a scene as texels: patches of about one size in the charts of each object (paper
+// 3, "Coherent surface shadow maps", section 3.2.3: the atlas).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "renderer/services/object_charts.h"
+#include "renderer/surface_light/surface_mesh.h"
+
+namespace lamplighter {
+
+// World space.
+struct SurfaceTexel {
+  uint32_t object = 0;
+  uint32_t chart = 0;        // of the object
+  glm::ivec2 at{0};          // in the rectangle of the object
+  SurfacePlace place;        // of the position
+  SurfaceSpot spot;          // where light arrives
+  std::array<vec3, 2> half;  // half the sides of a square in its plane, with its area
+  float area = 0.0f;         // [m²]
+
+  // A square for it, counter-clockwise as seen from the front.
+  std::array<vec3, 4> square() const {
+    const vec3& p = spot.position;
+    return {p - half[0] - half[1], p + half[0] - half[1], p + half[0] + half[1],
+            p - half[0] + half[1]};
+  }
+};
+
+// In which order the texels of an object are numbered. Inside of a chart: rows in turn to the right
+// and to the left, or along the border and inwards; then the chart nearest to where the last one
+// ended. greedy: always the nearest texel, whatever its chart (paper 3, section 3.2.3).
+enum class TexelOrder : uint8_t { zigzag, spiral, greedy };
+
+// A point of the surface between up to four texels.
+struct TexelBlend {
+  std::array<uint32_t, 4> texels{};
+  std::array<float, 4> weights{};  // the sum is 1; 0 if there is no texel
+};
+
+class TexelSet {
+ public:
+  static constexpr uint32_t kNone = 0xffffffffu;
+
+  TexelSet() = default;
+  // Of the objects that have an atlas: their front, and their back if their material has two
+  // sides.
+  TexelSet(const RenderScene& scene, std::span<const ObjectAtlas> atlases, TexelOrder order);
+
+  // One side of an object. Consecutive numbers.
+  struct Part {
+    uint32_t first = 0, count = 0;
+    glm::ivec2 size{0};
+    std::vector<uint32_t> texelAt;  // by row and column of the rectangle; kNone
+  };
+  std::span<const Part> parts() const { return parts_; }
+  size_t size() const { return texels_.size(); }
+  const SurfaceTexel& operator[](size_t texel) const { return texels_[texel]; }
+
+  // Bilinear at a point of a side of an object, given in texels of its rectangle. Texels that the
+  // surface does not have are left out.
+  TexelBlend blendAt(uint32_t object, bool isBack, const vec2& texels) const;
+
+ private:
+  std::vector<SurfaceTexel> texels_;
+  std::vector<Part> parts_;  // the front and the back of each object
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,46 @@
+// A binary tree over the texels of all surfaces, for senders of light: divided by the way they face,
+// then by median cuts (paper 3, section 4.2). Nodes are in depth-first order: the first child of a
+// node is the next one, and `skip` is the next one that is not below it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "renderer/surface_depths/texel_set.h"
+
+namespace lamplighter {
+
+class TexelTree {
+ public:
+  struct Node {
+    vec3 centre{0.0f};
+    float radius = 0.0f;  // of a sphere around all squares of its texels
+    vec3 normal{0.0f};    // mean by area; not unit
+    float area = 0.0f;
+    float cosCone = 1.0f;  // of the largest angle between the direction of `normal` and a texel's
+    uint32_t skip = 0;
+    uint32_t firstTexel = 0, texels = 0;  // in order()
+
+    bool isLeaf() const { return texels == 1; }
+  };
+
+  TexelTree() = default;
+  explicit TexelTree(const TexelSet& texels);
+
+  size_t size() const { return nodes_.size(); }
+  const Node& operator[](uint32_t node) const { return nodes_[node]; }
+  // Texels by leaf.
+  const std::vector<uint32_t>& order() const { return order_; }
+  uint32_t texelOf(const Node& leaf) const { return order_[leaf.firstTexel]; }
+
+  // Means by area of values of texels, by node.
+  void pull(const std::vector<vec3>& byTexel, std::vector<vec3>& byNode) const;
+
+ private:
+  uint32_t build(const TexelSet& texels, uint32_t first, uint32_t count);
+
+  std::vector<Node> nodes_;
+  std::vector<uint32_t> order_;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,137 @@
+// The method of paper 3: bounced light along kept links.
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "renderer/image/average_blocks.h"
+#include "renderer/image/metrics.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+struct BouncedRoom {
+  Scene scene;
+  NodeId box = kNoNode, lamp = kNoNode;
+  View view = test::lookAt(vec3(1.4f, 0.7f, 1.9f), vec3(0.0f, -0.6f, 0.0f), 64, 48);
+  Settings settings;
+  FrameRenderer renderer{makeCpuBackend()};
+  double rays = 0;  // of texels, of the last picture
+
+  BouncedRoom() {
+    const int white = test::addMaterial(scene, vec3(0.7f));
+    const int red = test::addMaterial(scene, vec3(0.8f, 0.2f, 0.1f));
+    test::addMesh(scene, test::roomMesh(vec3(4.0f, 3.0f, 4.0f), white));
+    box = test::addMesh(scene, test::boxMesh(vec3(0.8f), red), vec3(0.0f, -1.1f, 0.0f));
+    lamp = test::addRectangleLight(scene, vec3(-0.6f, 1.3f, 0.0f), vec2(0.8f), vec3(5.0f));
+    settings.set("bounces", 2);
+    settings.set("texel", 0.4f);
+    settings.set("depth_resolution", 16);
+  }
+
+  Image settledBy(FrameRenderer& by, SceneChanges changes, const std::string& method) {
+    GiOutput out;
+    rays = 0;
+    for (int frame = 0; frame < 3000 && !out.settled; ++frame) {
+      out = by.render({scene, changes, view, method, settings});
+      changes = {};
+      rays += out.stats.of("texel_rays");
+    }
+    EXPECT_TRUE(out.settled);
+    return out.radiance->pixels();
+  }
+  Image picture(const SceneChanges& changes = {}) {
+    return settledBy(renderer, changes, "surface_shadow_maps");
+  }
+  Image fresh(const std::string& method = "surface_shadow_maps") {
+    FrameRenderer own(makeCpuBackend());
+    return settledBy(own, SceneChanges::all(), method);
+  }
+  Image edited(const std::function<void(Scene&)>& edit) {
+    const Scene old = scene;
+    edit(scene);
+    return picture(compare(old, scene));
+  }
+};
+
+TEST(SurfaceShadowMaps, IsNearTheReference) {
+  BouncedRoom room;
+  room.settings.set("texel", 0.2f);
+  room.settings.set("depth_resolution", 32);
+  room.settings.set("antialias", 16);
+  const Image shown = averageBlocks(room.fresh(), 4);
+  const Image reference = averageBlocks(test::renderReference(room.scene, room.view, 1024, 2), 4);
+  const Metrics m = compareImages(shown, reference);
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  RecordProperty("bias", std::to_string(m.bias));
+  EXPECT_LT(m.relRmse, 0.05);
+  EXPECT_LT(std::abs(m.bias - 1.0), 0.03);
+}
+
+TEST(SurfaceShadowMaps, StoredVisibilityShowsWhatRaysShow) {
+  BouncedRoom room;
+  room.settings.set("depth_resolution", 32);
+  const Image stored = room.fresh();
+  room.settings.set("link_visibility", std::string("rays"));
+  EXPECT_LT(compareImages(stored, room.fresh()).relRmse, 0.01);
+}
+
+TEST(SurfaceShadowMaps, EditsLeaveTheBitsOfAFreshStart) {
+  BouncedRoom room;
+  const Image before = room.picture(SceneChanges::all());
+  const Image dimmed =
+      room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= vec3(0.5f, 0.7f, 0.1f); });
+  EXPECT_TRUE(test::sameBits(dimmed, room.fresh()));
+  room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance = vec3(5.0f); });
+  const Image lampMoved =
+      room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.5f; });
+  EXPECT_TRUE(test::sameBits(lampMoved, room.fresh()));
+  room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x -= 0.5f; });
+  const Image boxMoved =
+      room.edited([&](Scene& s) { s.find(room.box)->local.translation.z += 0.5f; });
+  EXPECT_TRUE(test::sameBits(boxMoved, room.fresh()));
+  const Image back = room.edited([&](Scene& s) { s.find(room.box)->local.translation.z -= 0.5f; });
+  EXPECT_TRUE(test::sameBits(back, room.fresh()));
+  EXPECT_TRUE(test::sameBits(back, before));
+}
+
+TEST(SurfaceShadowMaps, ThePictureDoesNotDependOnThreads) {
+  BouncedRoom room;
+  const Image expected = room.fresh();
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_TRUE(test::sameBits(room.fresh(), expected));
+}
+
+// The links are kept: only the direct light of the lamp is found anew.
+TEST(SurfaceShadowMaps, ALampThatMovesFindsNoLinksAnew) {
+  BouncedRoom room;
+  room.picture(SceneChanges::all());
+  const double first = room.rays;
+  room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.2f; });
+  EXPECT_GT(room.rays, 0.0);
+  EXPECT_LT(room.rays, first / 10.0);
+  room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= 2.0f; });
+  EXPECT_EQ(room.rays, 0.0);
+}
+
+TEST(SurfaceShadowMaps, LightOfTheSkyBouncesToo) {
+  BouncedRoom room;
+  room.scene.find(room.lamp)->visible = false;
+  // A room without a ceiling.
+  room.scene.nodes.front().visible = false;
+  test::addMesh(room.scene, test::squareMesh(4.0f, 0), vec3(0.0f, -1.5f, 0.0f));
+  room.scene.sky = Sky(vec3(1.0f));
+  const Image both = room.fresh();
+  room.settings.set("bounces", 0);
+  const Image direct = room.fresh();
+  EXPECT_GT(test::meanOf(both).r, 1.01f * test::meanOf(direct).r);
+  room.settings.set("bounces", 2);
+  const Image reference = test::renderReference(room.scene, room.view, 256, 2);
+  EXPECT_NEAR(test::meanOf(both).r / test::meanOf(reference).r, 1.0, 0.04);
+}
+
+}  // namespace
+}  // namespace lamplighter
