@@ -1,6 +1,6 @@
-// A binary tree over the texels of all surfaces, for senders of light: divided by the way they face,
-// then by median cuts (paper 3, section 4.2). Nodes are in depth-first order: the first child of a
-// node is the next one, and `skip` is the next one that is not below it.
+// A binary tree over the texels of all surfaces, for senders of light: divided by the way they
+// face, then by median cuts (paper 3, section 4.2). Nodes are in depth-first order: the first child
+// of a node is the next one, and `skip` is the next one that is not below it.
 #pragma once
 
 #include <array>

@@ -59,6 +59,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   options.withoutSurfaces = withoutSurfaces_;
   GiOutput out = renderSamples(in, options, stages, stats);
   addMeshes(in, options, stages, out, stats);
+  addLinks(in, options, stages, out, stats);
   out.stats = published(stats, manyLightsStatistics());
   return out;
 }
@@ -413,7 +414,8 @@ MethodInfo manyLightsInfo() {
           [](Backend& backend) {
             return std::make_unique<ManyLights>(backend.kernels<ManyLightsKernels>("many_lights"));
           },
-          {{Service::rays, Service::movers}, {kernelNeed<ManyLightsKernels>("many_lights")}},
+          {{Service::rays, Service::movers, Service::charts},
+           {kernelNeed<ManyLightsKernels>("many_lights")}},
           {{Capability::lights, ""},
            {Capability::patches, "with the technique visibility or light_maps"},
            {Capability::texels, "with the technique light_maps"},

@@ -10,6 +10,7 @@
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/bounced_picture.h"
 #include "renderer/methods/gi_method.h"
+#include "renderer/methods/linked_picture.h"
 #include "renderer/methods/many_lights/light_shares.h"
 #include "renderer/methods/many_lights/live_bias_compensation.h"
 #include "renderer/methods/many_lights/live_lights.h"
@@ -41,6 +42,7 @@ class ManyLights final : public GiMethod {
   // Whether the backend has the G-buffer of the view without a shift. To be set by those who draw
   // another one between frames.
   bool& gbufferIsCurrent() { return gbufferIsCurrent_; }
+  const LinkedPicture& linked() const { return linked_; }
   // Of light on surfaces, in the last frame.
   const SurfaceLight::Counts& surfaceCounts() const { return meshes_.counts(); }
 
@@ -49,6 +51,8 @@ class ManyLights final : public GiMethod {
 
   GiOutput renderSamples(const FrameInputs& in, Options& options, StageTimer& stages,
                          ManyLightsStats& stats);
+  void addLinks(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
+                ManyLightsStats& stats);
   void addMeshes(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
                  ManyLightsStats& stats);
   void takeScene(const FrameInputs& in, const Options& options);
@@ -131,6 +135,7 @@ class ManyLights final : public GiMethod {
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;
   BouncedPicture meshes_;  // with indirect = meshes
+  LinkedPicture linked_;   // with indirect = links
 };
 
 MethodInfo manyLightsInfo();

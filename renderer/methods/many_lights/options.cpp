@@ -31,6 +31,10 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, boo
     meshBounces = std::exchange(bounces, 0);
     directShare = 1.0f;
   }
+  if (indirect == ManyLightsIndirect::links) {
+    linkBounces = std::exchange(bounces, 0);
+    directShare = 1.0f;
+  }
   if (!useVisibility()) forgoVisibility();
   if (clampDistance <= 0.0f) cornerLight = false;
   if (!refines) refine = 0;

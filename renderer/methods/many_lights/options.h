@@ -19,6 +19,9 @@ struct ManyLightsOptions : ManyLightsParameters {
   bool withoutSurfaces = false;
   // Bounces of light that is kept on surfaces; 0: none is. `bounces` are those of light samples.
   int meshBounces = 0;
+  // Likewise of light along links of texels.
+  int linkBounces = 0;
+  bool useLinks() const { return linkBounces > 0; }
   // They show the sky, too, without its suns.
   bool useMeshes() const { return indirect == ManyLightsIndirect::meshes; }
 

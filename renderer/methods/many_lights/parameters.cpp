@@ -46,13 +46,18 @@ const ParameterTable<P>& manyLightsParameters() {
        "Bounced light",
        "",
        "samples: light samples carry it. meshes: surfaces keep it and the light of the sky, smooth "
-       "and current in each frame, and all light samples are placed on lamps and suns. automatic: "
-       "meshes on the cpu backend, samples on gl and with prt.",
+       "and current in each frame, and all light samples are placed on lamps and suns. links: "
+       "texels "
+       "of the surfaces exchange it along links that are found once, so that moving lights trace "
+       "no "
+       "rays for bounced light. automatic: meshes on the cpu backend, samples on gl and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
-        {"meshes", ManyLightsIndirect::meshes}},
+        {"meshes", ManyLightsIndirect::meshes},
+        {"links", ManyLightsIndirect::links}},
        lightSamples},
       surfaceLightParameters(),
+      storedDepthParameters(),
       {&P::importance,
        "importance",
        "Candidates",

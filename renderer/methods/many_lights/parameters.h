@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/stored_depth_parameters.h"
 #include "renderer/methods/surface_light_parameters.h"
 
 namespace lamplighter {
@@ -11,7 +12,7 @@ enum class ManyLightsTechnique { naive, visibility, lightMaps };
 
 // What carries bounced light: light samples, or light that is kept on surfaces. automatic: meshes
 // where the backend renders on the processor, samples where showing them reads the picture back.
-enum class ManyLightsIndirect { automatic, samples, meshes };
+enum class ManyLightsIndirect { automatic, samples, meshes, links };
 
 // Those that change how the light of the same light samples is summed. Memory is in MiB.
 struct LightSumParameters : SurfaceParameters {
@@ -33,7 +34,8 @@ struct LightSumParameters : SurfaceParameters {
 struct ManyLightsParameters : LightSumParameters,
                               PathParameters,
                               FrameBudgetParameters,
-                              SurfaceLightParameters {
+                              SurfaceLightParameters,
+                              StoredDepthParameters {
   ManyLightsIndirect indirect = ManyLightsIndirect::automatic;
   int vpls = 300;  // direct and indirect ones
   float directShare = 0.5f;

@@ -111,7 +111,8 @@ void ManyLights::refineSettled(const FrameInputs& in, const Options& options, bo
   const bool mayRefine = in.part == LightPart::all;
   // The picture is settled when light on surfaces is, too.
   const bool waits =
-      options.useMeshes() && (!meshes_.isDone(options.antialias) || !in.changes.none());
+      (options.useMeshes() && (!meshes_.isDone(options.antialias) || !in.changes.none())) ||
+      (options.useLinks() && (!linked_.isDone(options.antialias) || !in.changes.none()));
   if (out.settled && !shadedNow && mayRefine && !waits) refine(in, options, stages, out, stats);
   out.refined = out.settled && (options.refine == 0 || refinement_.done() || !mayRefine);
 }
@@ -187,6 +188,31 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
         std::max({1, stats.framesUntilSettled, meshes_.framesLeft(options.antialias)});
   stats.take(meshes_.counts());
   stats.raysTraced += meshes_.counts().rays;
+  stages.end(kMeshesStage);
+}
+
+// Adds bounced light along links of texels.
+void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTimer& stages,
+                          GiOutput& out, ManyLightsStats& stats) {
+  if (!options.useLinks()) linked_.forget();
+  linked_.outdate(in);
+  if (!options.useLinks() || in.part == LightPart::direct) return;
+  linked_.update(
+      in, options.radiosity(options.linkBounces, options.seed),
+      static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates));
+  const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
+  out.radiance =
+      linked_.addTo(in, out.radiance, samples,
+                    {in.lightOnly, options.speculars, options.leastRoughness}, gbufferIsCurrent_);
+  const bool isDone = linked_.isDone(options.antialias);
+  if (!isDone) refinement_.restart();
+  out.settled = out.settled && isDone;
+  out.refined = out.refined && out.settled;
+  if (!out.settled)
+    stats.framesUntilSettled =
+        std::max({1, stats.framesUntilSettled, linked_.framesLeft(options.antialias)});
+  stats.take(linked_.light());
+  stats.raysTraced += linked_.light().counts().rays;
   stages.end(kMeshesStage);
 }
 

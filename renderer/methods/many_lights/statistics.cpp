@@ -298,6 +298,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .meaning = "Paths that wait to be traced again.",
         .kind = pending}},
       surfaceLightStatistics(),
+      storedDepthStatistics(),
       commonStatistics()};
   return table;
 }

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "renderer/methods/common_statistics.h"
+#include "renderer/methods/stored_depth_parameters.h"
 #include "renderer/methods/surface_light_parameters.h"
 
 namespace lamplighter {
 
 // Numbers of VPLs, unless stated otherwise. Refreshed and pending ones are `updates` and `pending`.
-struct ManyLightsStats : SurfaceLightStats {
+struct ManyLightsStats : SurfaceLightStats, StoredDepthStats {
+  using StoredDepthStats::take;
+  using SurfaceLightStats::take;
+
   int vpls = 0;             // shown
   int oldestFrames = 0;     // frames that the oldest pending VPL has waited
   int mapsToSharpen = 0;    // coarse maps that become fine when nothing is pending

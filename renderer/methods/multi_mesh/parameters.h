@@ -14,7 +14,7 @@ struct DirectMeshParameters {
   MultiMeshDirect direct = MultiMeshDirect::meshes;
   float contrast = 2.0f;  // percent
   float leastPixels = 4.0f;
-  MeshPriority priority = MeshPriority::paper;
+  MeshPriority priority = MeshPriority::sorted;
   bool separateLights = true;
   int meshMemory = 256;  // MiB
   bool operator==(const DirectMeshParameters&) const = default;

@@ -18,9 +18,8 @@ constexpr size_t kDescents = 8;
 void DirectMeshes::update(const RenderScene& scene, const RenderSceneChanges& changes,
                           const RayCaster& rays, const LightSet& lights,
                           const DirectMeshOptions& options) {
-  const bool isOther = scene_ != &scene || rays_ != &rays || changes.rebuilt || changes.objects ||
-                       changes.materials || options.seed != options_.seed ||
-                       options.isSeparate != options_.isSeparate;
+  const bool isOther = scene_ != &scene || rays_ != &rays || changes.rebuilt || changes.materials ||
+                       options.seed != options_.seed || options.isSeparate != options_.isSeparate;
   changed_ = isOther || (!changes.none() && !changes.onlyBrightness());
   scene_ = &scene;
   rays_ = &rays;

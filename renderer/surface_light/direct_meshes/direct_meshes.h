@@ -19,7 +19,7 @@ namespace lamplighter {
 
 struct DirectMeshOptions {
   MeshCutOptions cut;
-  MeshPriority priority = MeshPriority::paper;
+  MeshPriority priority = MeshPriority::sorted;
   bool isSeparate = true;  // a mesh for each light
   uint32_t seed = 1;
   size_t memory = size_t{256} << 20;  // of vertices and nodes; those of other views are forgotten

@@ -98,6 +98,28 @@ TEST(SurfaceShadowMaps, EditsLeaveTheBitsOfAFreshStart) {
   EXPECT_TRUE(test::sameBits(back, before));
 }
 
+// The light of before stays until its links are found anew.
+TEST(SurfaceShadowMaps, AnObjectThatMovesKeepsItsLight) {
+  BouncedRoom room;
+  const vec3 before = test::meanOf(room.picture(SceneChanges::all()));
+  for (int step = 0; step < 3; ++step) {
+    const Scene old = room.scene;
+    room.scene.find(room.box)->local.translation.z += 0.05f;
+    const GiOutput out = room.renderer.render(
+        {room.scene, compare(old, room.scene), room.view, "surface_shadow_maps", room.settings});
+    EXPECT_FALSE(out.settled);
+    EXPECT_NEAR(test::meanOf(out.radiance->pixels()).r / before.r, 1.0f, 0.05f);
+  }
+  EXPECT_TRUE(test::sameBits(room.picture(), room.fresh()));
+}
+
+TEST(SurfaceShadowMaps, IsManyLightsWithLinks) {
+  BouncedRoom room;
+  const Image links = room.fresh();
+  room.settings.set("indirect", std::string("links"));
+  EXPECT_TRUE(test::sameBits(room.fresh("many_lights"), links));
+}
+
 TEST(SurfaceShadowMaps, ThePictureDoesNotDependOnThreads) {
   BouncedRoom room;
   const Image expected = room.fresh();

@@ -1,4 +1,4 @@
-#include "renderer/methods/surface_shadow_maps/atlas_picture.h"
+#include "renderer/methods/atlas_picture.h"
 
 #include <algorithm>
 #include <utility>
@@ -33,6 +33,13 @@ AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelRa
   return sample;
 }
 
+void AtlasPicture::outdate(const FrameInputs& in) {
+  unseen_.merge(in.changes);
+  if (in.view == view_) return;
+  view_ = in.view;
+  samples_.clear();
+}
+
 std::vector<uint32_t> AtlasPicture::texels() const {
   std::vector<uint32_t> out;
   if (samples_.empty()) return out;
@@ -55,9 +62,7 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     shown_ = nullptr;
     return picture;
   }
-  if (changes.surfaces() || changes.objects || !(in.view == view_) || options != options_)
-    samples_.clear();
-  view_ = in.view;
+  if (changes.surfaces() || changes.objects || options != options_) samples_.clear();
   options_ = options;
   if (antialias > 1 && antialias != antialias_) {
     antialias_ = antialias;

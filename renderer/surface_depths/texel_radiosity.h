@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/methods/gi_method.h"
-#include "renderer/methods/surface_shadow_maps/texel_light.h"
+#include "renderer/services/services.h"
+#include "renderer/surface_depths/texel_light.h"
 #include "renderer/surface_depths/texel_links.h"
 
 namespace lamplighter {
@@ -64,6 +64,7 @@ class TexelRadiosity {
  private:
   bool takeGeometry(const RenderScene& scene, Services& services,
                     const RenderSceneChanges& changes);
+  void findGeometry(const RenderScene& scene, const RayCaster& rays, uint64_t mostRays);
   void findLinks(const RenderScene& scene, const RayCaster& rays, size_t most);
   void findAlbedo(const RenderScene& scene);
   void bounce();
@@ -80,6 +81,7 @@ class TexelRadiosity {
   std::vector<vec3> albedo_;      // by texel
   std::vector<vec3> irradiance_;  // by texel
   bool usesDepths_ = true;
+  bool isStale_ = false;                    // surfaces moved since texels were found
   bool isStarted_ = false, isLit_ = false;  // isLit_: irradiance_ is that of now
   uint32_t version_ = 0;
   Counts counts_;

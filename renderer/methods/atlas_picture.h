@@ -4,15 +4,16 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/methods/surface_shadow_maps/texel_radiosity.h"
+#include "renderer/methods/gi_method.h"
+#include "renderer/surface_depths/texel_radiosity.h"
 #include "renderer/surface_light/pixels/pixel_reflectance.h"
 
 namespace lamplighter {
 
 class AtlasPicture {
  public:
-  // To be called with the changes of each frame.
-  void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
+  // To be called with each frame.
+  void outdate(const FrameInputs& in);
   // `picture` plus the bounced light. When it is final, the mean of `antialias` shifted pictures,
   // one more in each frame. `gbufferIsCurrent`: whether the backend has the G-buffer of the view
   // without a shift.

@@ -1,4 +1,4 @@
-#include "renderer/methods/surface_shadow_maps/texel_light.h"
+#include "renderer/surface_depths/texel_light.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "renderer/methods/surface_shadow_maps/texel_radiosity.h"
+#include "renderer/surface_depths/texel_radiosity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,21 +47,24 @@ float sideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
 
 }  // namespace
 
-// Finds the texels anew if surfaces are at other places. Returns whether that is so.
+// Finds the texels anew if surfaces are at other places. Returns whether that is so. While surfaces
+// move, the old texels stay: those of a moved object go with it.
 bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
                                   const RenderSceneChanges& changes) {
   const bool hasMasks = std::ranges::any_of(
       scene.materials, [](const Material& m) { return m.alphaMode == AlphaMode::mask; });
-  const bool isOther = !isStarted_ || changes.rebuilt || (changes.materials && hasMasks) ||
-                       std::ranges::any_of(changes.movedObjects, [&](uint32_t o) {
-                         return scene.slots[o].mesh != nullptr;
-                       });
-  isStarted_ = true;
-  if (!isOther) {
-    // Area lights that came have none.
+  const bool isMoving = std::ranges::any_of(
+      changes.movedObjects, [&](uint32_t o) { return scene.slots[o].mesh != nullptr; });
+  const bool isOther = !isStarted_ || changes.rebuilt || (changes.objects && isMoving) ||
+                       (changes.materials && hasMasks);
+  isStale_ = isStale_ || isOther || isMoving;
+  if (!isStale_ || (isMoving && !isOther)) {
+    // Area lights that came have no atlas.
     if (changes.objects) atlases_.resize(scene.objects.size());
     return false;
   }
+  isStarted_ = true;
+  isStale_ = false;
   counts_.texel = sideOf(scene, options_);
   const auto atlases = services.charts(1.0f / counts_.texel);
   atlases_.assign(atlases.begin(), atlases.end());
@@ -122,6 +125,14 @@ void TexelRadiosity::update(const RenderScene& scene, Services& services,
                                 mostRays / 2);
   isLit_ = isLit_ && !light_.changed();
   usesDepths_ = options_.visibility == TexelVisibility::stored || !scene.nominalSky.isBlack();
+  if (!isStale_) findGeometry(scene, rays, mostRays);
+  if (links_.isDone() && !isLit_) bounce();
+  counts_.bytes = depths_.bytes() + links_.bytes() + light_.bytes();
+}
+
+// Depths, then links, and the light of the sky through the depths.
+void TexelRadiosity::findGeometry(const RenderScene& scene, const RayCaster& rays,
+                                  uint64_t mostRays) {
   if (usesDepths_ && !depths_.isDone())
     counts_.rays += depths_.goOn(scene, rays, texels_, mostRays - std::min(mostRays, counts_.rays));
   if (usesDepths_ && depths_.isDone()) {
@@ -130,8 +141,6 @@ void TexelRadiosity::update(const RenderScene& scene, Services& services,
   }
   if ((!usesDepths_ || depths_.isDone()) && !links_.isDone())
     findLinks(scene, rays, 1 + mostRays / kRaysALinkedTexel);
-  if (links_.isDone() && !isLit_) bounce();
-  counts_.bytes = depths_.bytes() + links_.bytes() + light_.bytes();
 }
 
 // Jacobi iterations: what texels reflect is averaged upwards, then gathered along the links.
@@ -150,7 +159,8 @@ void TexelRadiosity::bounce() {
 }
 
 bool TexelRadiosity::isDone() const {
-  return isLit_ && links_.isDone() && (!usesDepths_ || depths_.isDone()) && unseen_.none();
+  return !isStale_ && isLit_ && links_.isDone() && (!usesDepths_ || depths_.isDone()) &&
+         unseen_.none();
 }
 
 float TexelRadiosity::progress() const { return 0.5f * (depths_.progress() + links_.progress()); }

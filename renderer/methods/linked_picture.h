@@ -1,0 +1,41 @@
+// Bounced light along links of texels, added to a picture.
+#pragma once
+
+#include "renderer/methods/atlas_picture.h"
+
+namespace lamplighter {
+
+class LinkedPicture {
+ public:
+  // To be called with each frame, also with those that do not show the light.
+  void outdate(const FrameInputs& in) {
+    light_.outdate(in.changes);
+    picture_.outdate(in);
+  }
+  // Goes on. `pace`: share of the usual work of a frame.
+  void update(const FrameInputs& in, const TexelRadiosityOptions& options, float pace);
+  // `picture` plus the bounced light; see AtlasPicture::addTo().
+  std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
+                                       const std::shared_ptr<RadianceImage>& picture, int antialias,
+                                       const SurfacePictureOptions& options,
+                                       bool& gbufferIsCurrent) {
+    return picture_.addTo(in, picture, light_, antialias, options, gbufferIsCurrent);
+  }
+  bool isDone(int antialias) const { return light_.isDone() && picture_.isDone(antialias); }
+  int framesLeft(int antialias) const {
+    return light_.isDone() ? picture_.framesLeft(antialias) : antialias + 1;
+  }
+  const TexelRadiosity& light() const { return light_; }
+  // By name: views of texels. They refer to this object.
+  std::map<std::string, std::function<ViewPicture()>> views() const;
+  void forget() { *this = LinkedPicture(); }
+
+ private:
+  TexelRadiosity light_;
+  AtlasPicture picture_;
+};
+
+// Those of views().
+const std::vector<MethodView>& linkedViews();
+
+}  // namespace lamplighter
