@@ -7,6 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/byte_stream.h"
+
 namespace lamplighter {
 namespace {
 
@@ -148,6 +150,43 @@ uint64_t SurfaceDepths::goOn(const RenderScene& scene, const RayCaster& rays,
   }
   nextUnit_ += count;
   return traced;
+}
+
+std::vector<uint8_t> SurfaceDepths::saved() const {
+  std::vector<uint8_t> bytes;
+  for (const Run& run : runs_) {
+    append(bytes, run.starts.data(), run.starts.size());
+    append(bytes, run.segments.values.data(), run.segments.values.size());
+    append(bytes, run.segments.last.data(), run.segments.last.size());
+  }
+  return bytes;
+}
+
+bool SurfaceDepths::restore(std::span<const uint8_t> bytes) {
+  const uint32_t pixels = layout_.pixels();
+  std::vector<Run> runs = runs_;
+  for (Run& run : runs) {
+    run.starts.resize(pixels + 1);
+    if (!take(bytes, run.starts.data(), run.starts.size()) || run.starts[0] != 0) return false;
+    // Each pixel has a segment at least, and at most one for each texel.
+    for (uint32_t q = 0; q < pixels; ++q)
+      if (run.starts[q + 1] <= run.starts[q] || run.starts[q + 1] - run.starts[q] > run.count)
+        return false;
+    run.segments.values.resize(run.starts.back());
+    run.segments.last.resize(run.starts.back());
+    if (!take(bytes, run.segments.values.data(), run.segments.values.size()) ||
+        !take(bytes, run.segments.last.data(), run.segments.last.size()))
+      return false;
+    for (uint32_t q = 0; q < pixels; ++q) {
+      const auto last =
+          std::span(run.segments.last).subspan(run.starts[q], run.starts[q + 1] - run.starts[q]);
+      if (!std::ranges::is_sorted(last) || last.back() != run.count - 1) return false;
+    }
+  }
+  if (!bytes.empty()) return false;
+  runs_ = std::move(runs);
+  nextUnit_ = units();
+  return true;
 }
 
 float SurfaceDepths::progress() const {

@@ -27,6 +27,11 @@ class SurfaceDepths {
   uint64_t goOn(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,
                 uint64_t most);
   bool isDone() const { return nextUnit_ == units(); }
+  // For files: everything that goOn() found. restore() completes depths after restart(); it returns
+  // false and changes nothing if the bytes are not those of such texels.
+  std::vector<uint8_t> saved() const;
+  bool restore(std::span<const uint8_t> bytes);
+
   // Share of the work that is done.
   float progress() const;
 

@@ -72,8 +72,13 @@ bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
   texels_ = TexelSet(scene, atlases_, options_.order);
   // Texels of moved objects keep their numbers.
   if (texels_.size() != before || changes.rebuilt || changes.objects) irradiance_.clear();
+  counts_.rays += texels_.findBuried(scene, services.rays());
   tree_ = TexelTree(texels_);
   depths_.restart(scene, texels_, options_.map);
+  depthKey_ = services.cacheFolder().empty() ? std::nullopt
+                                             : DepthCache::keyOf(scene, texels_, options_.map);
+  // What is on disk need not be saved.
+  if (depthKey_ && DepthCache(services.cacheFolder()).load(*depthKey_, depths_)) depthKey_.reset();
   links_.restart(texels_, options_.linkError);
   light_.restart();
   findAlbedo(scene);
@@ -126,6 +131,10 @@ void TexelRadiosity::update(const RenderScene& scene, Services& services,
   isLit_ = isLit_ && !light_.changed();
   usesDepths_ = options_.visibility == TexelVisibility::stored || !scene.nominalSky.isBlack();
   if (!isStale_) findGeometry(scene, rays, mostRays);
+  if (depthKey_ && usesDepths_ && !isStale_ && depths_.isDone()) {
+    DepthCache(services.cacheFolder()).save(*depthKey_, depths_);
+    depthKey_.reset();
+  }
   if (links_.isDone() && !isLit_) bounce();
   counts_.bytes = depths_.bytes() + links_.bytes() + light_.bytes();
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/services/services.h"
+#include "renderer/surface_depths/depth_cache.h"
 #include "renderer/surface_depths/texel_light.h"
 #include "renderer/surface_depths/texel_links.h"
 
@@ -76,6 +77,7 @@ class TexelRadiosity {
   TexelSet texels_;
   TexelTree tree_;
   SurfaceDepths depths_;
+  std::optional<ContentKey> depthKey_;  // of depths that are to be saved
   TexelLinks links_;
   TexelLight light_;
   std::vector<vec3> albedo_;      // by texel

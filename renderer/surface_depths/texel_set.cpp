@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/surface_depths/texel_order.h"
+#include "renderer/surface_light/gather_links.h"
 
 namespace lamplighter {
 namespace {
@@ -15,6 +16,19 @@ namespace {
 constexpr int kPlaces = 4;
 // Texels around a point, to both sides, of which the nearest is taken if it lies between none.
 constexpr int kReach = kGutter + 1;
+
+// Rays by which buried texels are found, of which more than one in so many hit a back face within
+// so many sides of the texel.
+constexpr int kBuriedRays = 32, kBuriedShare = 8;
+constexpr float kBuriedNear = 4.0f;
+constexpr uint32_t kBuriedSet = 0x8b;
+
+bool isBack(const RenderScene& scene, const Hit& hit, const vec3& direction) {
+  const uint32_t* i = &scene.indices[scene.objects[hit.object].firstIndex + 3 * hit.triangle];
+  const vec3& a = scene.positions[i[0]];
+  return glm::dot(glm::cross(scene.positions[i[1]] - a, scene.positions[i[2]] - a), direction) >
+         0.0f;
+}
 
 // A place of a texel on a triangle.
 struct Covered {
@@ -207,13 +221,39 @@ TexelSet::TexelSet(const RenderScene& scene, std::span<const ObjectAtlas> atlase
   }
 }
 
+uint64_t TexelSet::findBuried(const RenderScene& scene, const RayCaster& rays) {
+  const std::vector<vec3> directions = gatherDirections(kBuriedRays, kBuriedSet);
+  isBuried_.assign(texels_.size(), 0);
+  tbb::parallel_for(size_t{0}, texels_.size(), [&](size_t t) {
+    const SurfaceSpot& spot = texels_[t].spot;
+    const float near = kBuriedNear * std::sqrt(texels_[t].area);
+    int inside = 0;
+    for (const vec3& d : directions) {
+      const Ray ray{spot.rayOrigin(), 0.0f, gatherDirection(spot, d), near};
+      if (ray.direction == vec3(0.0f)) continue;
+      const Hit hit = rays.intersect(ray);
+      if (hit && scene.backIsUnseen(hit.object) && isBack(scene, hit, ray.direction)) ++inside;
+    }
+    isBuried_[t] = kBuriedShare * inside > kBuriedRays ? 1 : 0;
+  });
+  return texels_.size() * static_cast<uint64_t>(kBuriedRays);
+}
+
 TexelBlend TexelSet::blendAt(uint32_t object, bool isBack, const vec2& texels) const {
   const Part& part = parts_[2 * object + (isBack ? 1 : 0)];
+  if (part.count == 0) return {};
+  const TexelBlend shown = blendOf(part, texels, false);
+  const bool isFound = std::ranges::any_of(shown.weights, [](float w) { return w > 0.0f; });
+  return isFound ? shown : blendOf(part, texels, true);
+}
+
+// Of texels in reach. `withBuried`: also of buried ones.
+TexelBlend TexelSet::blendOf(const Part& part, const vec2& texels, bool withBuried) const {
   TexelBlend blend;
-  if (part.count == 0) return blend;
   const auto at = [&](int x, int y) {
     const bool isIn = x >= 0 && y >= 0 && x < part.size.x && y < part.size.y;
-    return isIn ? part.texelAt[static_cast<size_t>(y * part.size.x + x)] : kNone;
+    const uint32_t texel = isIn ? part.texelAt[static_cast<size_t>(y * part.size.x + x)] : kNone;
+    return texel != kNone && !withBuried && isBuried(texel) ? kNone : texel;
   };
   const vec2 s = texels - 0.5f;
   const glm::ivec2 low(static_cast<int>(std::floor(s.x)), static_cast<int>(std::floor(s.y)));

@@ -59,13 +59,21 @@ class TexelSet {
   size_t size() const { return texels_.size(); }
   const SurfaceTexel& operator[](size_t texel) const { return texels_[texel]; }
 
+  // Finds which texels lie inside of an object or behind a wall: several rays of them hit, close
+  // by, back faces that no camera sees. Returns the number of rays.
+  uint64_t findBuried(const RenderScene& scene, const RayCaster& rays);
+  bool isBuried(size_t texel) const { return !isBuried_.empty() && isBuried_[texel] != 0; }
+
   // Bilinear at a point of a side of an object, given in texels of its rectangle. Texels that the
-  // surface does not have are left out.
+  // surface does not have are left out, and buried ones if there are others.
   TexelBlend blendAt(uint32_t object, bool isBack, const vec2& texels) const;
 
  private:
+  TexelBlend blendOf(const Part& part, const vec2& texels, bool withBuried) const;
+
   std::vector<SurfaceTexel> texels_;
-  std::vector<Part> parts_;  // the front and the back of each object
+  std::vector<uint8_t> isBuried_;  // by texel; empty: not known
+  std::vector<Part> parts_;        // the front and the back of each object
 };
 
 }  // namespace lamplighter

@@ -1,4 +1,5 @@
 // The method of paper 3: bounced light along kept links.
+#include <filesystem>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -137,6 +138,27 @@ TEST(SurfaceShadowMaps, ALampThatMovesFindsNoLinksAnew) {
   EXPECT_LT(room.rays, first / 10.0);
   room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= 2.0f; });
   EXPECT_EQ(room.rays, 0.0);
+}
+
+TEST(SurfaceShadowMaps, DepthsAreKeptOnDisk) {
+  const auto folder = std::filesystem::temp_directory_path() / "lamplighter_depths_test";
+  std::filesystem::remove_all(folder);
+  BouncedRoom room;
+  const auto pictureWithCache = [&] {
+    FrameRenderer own(makeCpuBackend());
+    own.setCacheFolder(folder);
+    return room.settledBy(own, SceneChanges::all(), "surface_shadow_maps");
+  };
+  const Image first = pictureWithCache();
+  const double traced = room.rays;
+  EXPECT_TRUE(test::sameBits(pictureWithCache(), first));
+  EXPECT_LT(room.rays, 0.2 * traced);
+  // A damaged file is no file.
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".depths") std::filesystem::resize_file(entry.path(), 1000);
+  EXPECT_TRUE(test::sameBits(pictureWithCache(), first));
+  EXPECT_EQ(room.rays, traced);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(SurfaceShadowMaps, LightOfTheSkyBouncesToo) {

@@ -83,6 +83,37 @@ TEST(SurfaceDepths, TheSameInAnyPortionsAndThreads) {
       ASSERT_EQ(depths.valueOf(t, q), expected.valueOf(t, q));
 }
 
+TEST(SurfaceDepths, ComeBackFromBytes) {
+  const test::RoomTexels room(true, 0.5f);
+  const DepthMapLayout layout{DepthMapKind::cube, 16};
+  const SurfaceDepths expected = room.depths(layout);
+  std::vector<uint8_t> bytes = expected.saved();
+  SurfaceDepths depths;
+  depths.restart(room.scene, room.texels, layout);
+  ASSERT_TRUE(depths.restore(bytes));
+  EXPECT_TRUE(depths.isDone());
+  for (size_t t = 0; t < room.texels.size(); t += 3)
+    for (uint32_t q = 0; q < layout.pixels(); q += 5)
+      ASSERT_EQ(depths.valueOf(t, q), expected.valueOf(t, q));
+
+  depths.restart(room.scene, room.texels, layout);
+  EXPECT_FALSE(depths.restore(std::span(bytes).first(bytes.size() - 1)));
+  bytes.push_back(0);
+  EXPECT_FALSE(depths.restore(bytes));
+  bytes.pop_back();
+  // Random damage is found, or leaves depths that can be asked.
+  for (uint32_t i = 0; i < 200; ++i) {
+    std::vector<uint8_t> damaged = bytes;
+    damaged[hash4(i, 0, 0, 1) % damaged.size()] ^=
+        static_cast<uint8_t>(1 + hash4(i, 0, 0, 2) % 255);
+    depths.restart(room.scene, room.texels, layout);
+    if (!depths.restore(damaged)) continue;
+    for (size_t t = 0; t < room.texels.size(); ++t)
+      for (uint32_t q = 0; q < layout.pixels(); ++q) depths.valueOf(t, q);
+  }
+  EXPECT_FALSE(depths.restore({}));
+}
+
 TEST(SurfaceDepths, CoherentOrdersNeedFewerSegments) {
   const DepthMapLayout layout{DepthMapKind::cube, 16};
   const test::RoomTexels zigzag(true), spiral(true, 0.25f, TexelOrder::spiral);

@@ -80,5 +80,24 @@ TEST(TexelSet, BlendsNeighboursLinearly) {
   EXPECT_GT(found, 20u);
 }
 
+TEST(TexelSet, LeavesOutTexelsUnderABox) {
+  test::RoomTexels room(true);
+  room.texels.findBuried(room.scene, *room.rays);
+  size_t under = 0;
+  for (size_t t = 0; t < room.texels.size(); ++t) {
+    const vec3& p = room.texels[t].spot.position;
+    // The box is 1 m wide.
+    const float beside = std::max(std::abs(p.x - 0.3f), std::abs(p.z - 0.2f)) - 0.5f;
+    const bool isUnder = room.texels[t].object == 0 && p.y < -1.49f && beside < -0.02f;
+    const bool isOpen = room.texels[t].object == 0 && (p.y > -1.4f || beside > 0.02f);
+    if (isUnder) {
+      ++under;
+      EXPECT_TRUE(room.texels.isBuried(t)) << p.x << ' ' << p.z;
+    }
+    if (isOpen) EXPECT_FALSE(room.texels.isBuried(t)) << p.x << ' ' << p.y << ' ' << p.z;
+  }
+  EXPECT_GT(under, 8u);
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -36,6 +36,8 @@ struct Case {
   bool prt = false;    // precomputed transfer is on for the mover, which is complex
   int vpls = 300;
   int maps = ManyLightsParameters().mapResolution;  // texels per side
+  const char* indirect = "automatic";
+  int bounces = 2;
 };
 
 std::string roomPath(const std::string& name) { return "assets/scenes/" + name + ".gltf"; }
@@ -60,6 +62,8 @@ void drag(benchmark::State& state, const Case& c) {
   settings.set("technique", std::string(c.technique));
   settings.set("antialias", 1);
   settings.set("prt", c.prt);
+  settings.set("indirect", std::string(c.indirect));
+  settings.set("bounces", c.bounces);
   FrameRenderer renderer(backendOf(c.backend), seconds, StageTimes::exact);
   FrameTimeControl control;
   const double milliseconds = frameBudgetParameters().read(settings).frameTime;
@@ -146,6 +150,15 @@ void add(const std::string& name, const Case& c) {
     Case c{roomPath("pillar_room"), "ceiling light", "light_maps", "cpu", 640, 360, false};
     c.maps = maps;
     add("drag_maps/" + std::to_string(maps) + "/pillar_room/ceiling light/640x360/cpu", c);
+  }
+  for (const char* indirect : {"samples", "meshes", "links"}) {
+    for (const auto& [scene, node] :
+         {std::pair("pillar_room", "ceiling light"), {"corridor", "lamp"}, {"door_ajar", "lamp"}}) {
+      Case c{roomPath(scene), node, "light_maps", "cpu"};
+      c.indirect = indirect;
+      c.bounces = 5;
+      add(std::string("drag_5_bounces/") + scene + "/" + node + "/" + indirect + "/cpu", c);
+    }
   }
   const Case knot{roomPath("pillar_room"), "mover", "light_maps", "cpu", 640, 360, false};
   add("drag_100/pillar_room/mover/640x360/cpu", knot);

@@ -1,0 +1,33 @@
+// Depths on disk, so that a level that was opened before needs no rays for them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "renderer/base/content_cache.h"
+#include "renderer/surface_depths/surface_depths.h"
+
+namespace lamplighter {
+
+class DepthCache {
+ public:
+  // Of all files; the oldest are deleted first.
+  static constexpr uintmax_t kMostBytes = uintmax_t{256} << 20;
+
+  // An empty path: nothing is kept on disk.
+  explicit DepthCache(std::filesystem::path folder) : files_(std::move(folder), {"depths", 1}) {}
+
+  // A hash of everything that depths depend on: places of texels, triangles, sides of materials,
+  // the layout. None with alpha masks, whose textures would have to be hashed.
+  static std::optional<ContentKey> keyOf(const RenderScene& scene, const TexelSet& texels,
+                                         const DepthMapLayout& layout);
+  // Completes depths that were restarted. False if there is no sound file.
+  bool load(const ContentKey& key, SurfaceDepths& depths) const;
+  void save(const ContentKey& key, const SurfaceDepths& depths) const;
+  std::filesystem::path fileOf(const ContentKey& key) const { return files_.fileOf(key); }
+
+ private:
+  ContentCache files_;
+};
+
+}  // namespace lamplighter
