@@ -39,8 +39,8 @@ const ParameterTable<StoredDepthParameters>& storedDepthParameters() {
        "link_visibility",
        "Visibility",
        "",
-       "How texels find out what they see when links are made. stored: by their depths. rays: by "
-       "rays, to compare with.",
+       "How texels find out what they see when links are made. rays: exactly. stored: by their "
+       "depths, as paper 3 has it; they are as coarse as the pixels of depth maps.",
        {{"stored", TexelVisibility::stored}, {"rays", TexelVisibility::rays}}},
       {&P::linkError,
        "link_error",

@@ -11,9 +11,9 @@ namespace lamplighter {
 struct StoredDepthParameters {
   float texel = 0.25f;  // [m]
   TexelOrder texelOrder = TexelOrder::zigzag;
-  DepthMapKind depthMap = DepthMapKind::cube;
-  int depthResolution = 32;
-  TexelVisibility linkVisibility = TexelVisibility::stored;
+  DepthMapKind depthMap = DepthMapKind::octahedral;
+  int depthResolution = 64;
+  TexelVisibility linkVisibility = TexelVisibility::rays;
   float linkError = 0.5f;  // percent
   int depthMemory = 256;   // MiB
   bool operator==(const StoredDepthParameters&) const = default;

@@ -100,6 +100,11 @@ void TexelLinks::goOn(const TexelSet& texels, const TexelTree& tree, const Visib
     }
   });
   for (size_t i = 0; i < count; ++i) {
+    // More than all of the hemisphere is seen where surfaces coincide.
+    float sum = 0.0f;
+    for (const TexelLink& link : found[i]) sum += link.weight;
+    if (sum > 1.0f)
+      for (TexelLink& link : found[i]) link.weight /= sum;
     links_.insert(links_.end(), found[i].begin(), found[i].end());
     starts_[next_ + i + 1] = links_.size();
   }

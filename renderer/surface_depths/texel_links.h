@@ -32,7 +32,8 @@ class TexelLinks {
  public:
   // Forgets all links. `error`: nodes whose form factor may be larger are refined.
   void restart(const TexelSet& texels, float error);
-  // Finds the links of some texels more. The result does not depend on how many.
+  // Finds the links of some texels more. The sum of their weights is at most 1. The result does not
+  // depend on how many.
   void goOn(const TexelSet& texels, const TexelTree& tree, const Visibility& sees, size_t most);
   bool isDone() const { return next_ == starts_.size() - 1; }
   float progress() const {

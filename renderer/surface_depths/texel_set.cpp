@@ -201,6 +201,8 @@ TexelSet::TexelSet(const RenderScene& scene, std::span<const ObjectAtlas> atlase
   tbb::parallel_for(size_t{0}, atlases.size(), [&](size_t o) {
     if (!atlases[o].atlas) return;
     const auto object = static_cast<uint32_t>(o);
+    // Rays go through clear surfaces.
+    if (scene.materials[static_cast<size_t>(scene.objects[o].material)].isClear()) return;
     const std::vector<SurfaceTexel> texels = texelsOf(scene, object, atlases[o]);
     for (const uint32_t t : orderOf(texels, order)) bySide[2 * o].push_back(texels[t]);
     if (scene.backIsUnseen(object)) return;

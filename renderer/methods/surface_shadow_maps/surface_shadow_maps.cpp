@@ -9,6 +9,8 @@
 namespace lamplighter {
 namespace {
 
+constexpr char kVisibility[] = "link_visibility", kStored[] = "stored";
+
 // The parameters of many_lights that matter when links carry bounced light.
 struct Parameters : PathParameters,
                     FrameBudgetParameters,
@@ -23,6 +25,9 @@ std::vector<ParameterSpec> parameterSpecs() {
       manyLightsParameters().only("share_memory"), manyLightsParameters().only("refine")};
   std::vector<ParameterSpec> specs = own.specs();
   specs.insert(specs.end(), direct.specs().begin(), direct.specs().end());
+  // As published; rays are the default of many_lights.
+  for (ParameterSpec& spec : specs)
+    if (spec.name == kVisibility) spec.defaultValue = std::string(kStored);
   return specs;
 }
 
@@ -49,6 +54,7 @@ class SurfaceShadowMaps final : public GiMethod {
   GiOutput render(const FrameInputs& in) override {
     Settings settings = in.settings;
     settings.set("indirect", std::string("links"));
+    if (!settings.values().contains(kVisibility)) settings.set(kVisibility, std::string(kStored));
     GiOutput out = lights_.render({in.scene, in.changes, in.view, in.backend, in.services, settings,
                                    in.frame, in.stopwatch, in.stageTimes, in.lightOnly, in.part});
     Stats stats;

@@ -30,6 +30,7 @@ struct BouncedRoom {
     lamp = test::addRectangleLight(scene, vec3(-0.6f, 1.3f, 0.0f), vec2(0.8f), vec3(5.0f));
     settings.set("bounces", 2);
     settings.set("texel", 0.4f);
+    settings.set("depth_map", std::string("cube"));
     settings.set("depth_resolution", 16);
   }
 
@@ -118,6 +119,7 @@ TEST(SurfaceShadowMaps, IsManyLightsWithLinks) {
   BouncedRoom room;
   const Image links = room.fresh();
   room.settings.set("indirect", std::string("links"));
+  room.settings.set("link_visibility", std::string("stored"));
   EXPECT_TRUE(test::sameBits(room.fresh("many_lights"), links));
 }
 

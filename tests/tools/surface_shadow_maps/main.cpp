@@ -42,6 +42,7 @@ struct Texels {
     update(scene, loadGltf(file).scene, SceneChanges::all());
     rays = std::make_unique<RayCaster>(scene);
     set = TexelSet(scene, charts.find(scene, 1.0f / texel), order);
+    set.findBuried(scene, *rays);
     tree = TexelTree(set);
   }
   SurfaceDepths depths(const DepthMapLayout& layout) const {
@@ -59,8 +60,23 @@ struct Texels {
   bool seesByRay(uint32_t texel, const vec3& point) const {
     const SurfaceSpot& spot = set[texel].spot;
     const vec3 from = spot.rayOrigin(), d = point - from;
-    return glm::dot(d, spot.geometricNormal) > 0.0f &&
-           !rays->occluded({from, 0.0f, d, 1.0f - 1e-3f});
+    if (glm::dot(d, spot.geometricNormal) <= 0.0f) return false;
+    // Area lights do not count.
+    Ray ray{from, 0.0f, d, 1.0f - 1e-3f};
+    for (Hit hit = rays->intersect(ray); hit; hit = rays->intersect(ray)) {
+      if (!scene.objects[hit.object].isAreaLight) return false;
+      ray.tNear = hit.t + 1e-4f;
+    }
+    return true;
+  }
+  // A texel by its area. `u`: in [0, 1).
+  uint32_t at(float u) const {
+    if (sums.empty())
+      for (size_t t = 0; t < set.size(); ++t)
+        sums.push_back((sums.empty() ? 0.0 : sums.back()) + static_cast<double>(set[t].area));
+    return static_cast<uint32_t>(std::min<size_t>(
+        static_cast<size_t>(std::ranges::upper_bound(sums, u * sums.back()) - sums.begin()),
+        set.size() - 1));
   }
 
   RenderScene scene;
@@ -68,6 +84,7 @@ struct Texels {
   ObjectCharts charts{fs::path()};
   TexelSet set;
   TexelTree tree;
+  mutable std::vector<double> sums;  // of areas, by texel
 };
 
 // Table 2 of the paper: how well the orders compress.
@@ -106,7 +123,7 @@ void printOrders(const std::vector<Level>& levels) {
   }
 }
 
-// Queries against rays, one after the other, on one core.
+// Queries against rays, one after the other, on one core, between texels drawn by area.
 void printQueries(const std::vector<Level>& levels) {
   std::cout << "\n| scene | texel | a query, ns | an occlusion ray, ns | answers that differ |\n| "
                "--- | --- | --- | --- | --- |\n";
@@ -116,9 +133,11 @@ void printQueries(const std::vector<Level>& levels) {
     const SurfaceDepths depths = texels.depths({DepthMapKind::cube, 32});
     // As links ask: several senders for one receiver.
     std::vector<std::pair<uint32_t, uint32_t>> pairs;
-    const auto count = static_cast<uint32_t>(texels.set.size());
+    const auto random = [](uint32_t i, uint32_t set) {
+      return static_cast<float>(hash4(i, 0, 0, set) >> 8) / 16777216.0f;
+    };
     for (uint32_t i = 0; i < kPairs; ++i)
-      pairs.emplace_back(hash4(i / 64, 0, 0, 1) % count, hash4(i, 0, 0, 2) % count);
+      pairs.emplace_back(texels.at(random(i / 64, 1)), texels.at(random(i, 2)));
     std::erase_if(pairs, [&](const auto& p) {
       const SurfaceTexel &a = texels.set[p.first], &b = texels.set[p.second];
       const vec3 d = b.spot.position - a.spot.position;
@@ -168,14 +187,18 @@ std::vector<vec3> bounced(const Texels& texels, const TexelLinks& links,
   return light;
 }
 
-double errorOf(const std::vector<vec3>& light, const std::vector<vec3>& truth) {
-  double squares = 0.0, mean = 0.0;
+// By area, without buried texels.
+double errorOf(const Texels& texels, const std::vector<vec3>& light,
+               const std::vector<vec3>& truth) {
+  double squares = 0.0, mean = 0.0, area = 0.0;
   for (size_t t = 0; t < light.size(); ++t) {
-    squares += std::pow(static_cast<double>(light[t].g - truth[t].g), 2.0);
-    mean += static_cast<double>(truth[t].g);
+    if (texels.set.isBuried(t)) continue;
+    const auto own = static_cast<double>(texels.set[t].area);
+    squares += own * std::pow(static_cast<double>(light[t].g - truth[t].g), 2.0);
+    mean += own * static_cast<double>(truth[t].g);
+    area += own;
   }
-  const auto count = static_cast<double>(light.size());
-  return std::sqrt(squares / count) / (mean / count);
+  return std::sqrt(squares / area) / (mean / area);
 }
 
 void printLinks(const std::vector<Level>& levels) {
@@ -206,8 +229,9 @@ void printLinks(const std::vector<Level>& levels) {
                        level.file.stem().string(), texels.set.size(), 100.0f * error,
                        static_cast<double>(links.size()) / static_cast<double>(texels.set.size()),
                        seconds, 1e3 * bounces / kBounces,
-                       hasTruth ? fmt::format("{:.2f}%", 100.0 * errorOf(light, truth)) : "",
-                       100.0 * errorOf(light, byRays))
+                       hasTruth ? fmt::format("{:.2f}%", 100.0 * errorOf(texels, light, truth))
+                                : "",
+                       100.0 * errorOf(texels, light, byRays))
                 << std::flush;
     }
   }
