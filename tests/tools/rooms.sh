@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # How soon the live picture is near the path tracer in rooms that bounced light alone lights, after
-# the lamp or an object moved, as a table. Five bounces, means of 4 x 4 pixels.
+# the lamp or an object moved, as a table. Five bounces, means of 8 x 8 pixels.
 #   rooms.sh LAMPLIGHTER [PATHS A PIXEL]
 set -euo pipefail
 lamplighter=$1 paths=${2:-256}
@@ -24,9 +24,9 @@ while IFS=: read -r room node by; do
   done
   oiiotool "$work/1.exr" "$work/2.exr" --add --mulc 0.5 -o "$work/reference.exr"
   # The difference of the halves is twice the noise of their mean.
-  noise=$("$lamplighter" compare "$work/1.exr" "$work/2.exr" --block 4 --json | jq '50 * .relRMSE')
+  noise=$("$lamplighter" compare "$work/1.exr" "$work/2.exr" --block 8 --json | jq '50 * .relRMSE')
   "$lamplighter" converge "assets/scenes/$room.gltf" "$work/to.gltf" "${common[@]}" \
-    --against "$work/reference.exr" --block 4 --json > "$work/curve.json" 2> "$work/log"
+    --against "$work/reference.exr" --block 8 --json > "$work/curve.json" 2> "$work/log"
   jq -r --arg room "$room" --arg node "$node" --argjson noise "$noise" '
     def time: if . == null then "never" else "\(. * 100 | round / 100) s" end;
     "| \($room) | \($node) | \(.to_10 | time) | \(.to_5 | time) | \(.settled | time) | \(.end * 1000 | round / 10)% | \($noise * 10 | round / 10)% |"' \
