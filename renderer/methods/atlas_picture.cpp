@@ -62,7 +62,10 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     shown_ = nullptr;
     return picture;
   }
-  if (changes.surfaces() || changes.objects || options != options_) samples_.clear();
+  if (changes.surfaces() || changes.objects || options != options_ ||
+      light.texelVersion() != texelVersion_)
+    samples_.clear();
+  texelVersion_ = light.texelVersion();
   options_ = options;
   if (antialias > 1 && antialias != antialias_) {
     antialias_ = antialias;

@@ -46,7 +46,7 @@ class AtlasPicture {
 
   View view_;
   SurfacePictureOptions options_;
-  uint32_t version_ = 0;  // of the light
+  uint32_t version_ = 0, texelVersion_ = 0;  // of the light
   RenderSceneChanges unseen_;
   std::vector<Sample> samples_;  // the first without a shift
   std::shared_ptr<RadianceImage> under_, shown_;

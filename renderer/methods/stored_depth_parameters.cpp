@@ -18,8 +18,7 @@ const ParameterTable<StoredDepthParameters>& storedDepthParameters() {
        "Order of texels",
        "",
        "Along which texels depths are compressed. zigzag: row by row. spiral: along the border of "
-       "a "
-       "chart, then inwards. greedy: always the nearest texel.",
+       "a chart, then inwards. greedy: always the nearest texel.",
        {{"zigzag", TexelOrder::zigzag},
         {"spiral", TexelOrder::spiral},
         {"greedy", TexelOrder::greedy}}},

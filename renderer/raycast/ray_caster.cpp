@@ -321,4 +321,11 @@ float rayEpsilon(const vec3& p) {
   return std::max(1e-5f, largest * 0x1p-17f);
 }
 
+bool isOnBack(const RenderScene& scene, const Hit& hit, const vec3& direction) {
+  const uint32_t* i = &scene.indices[scene.objects[hit.object].firstIndex + 3 * hit.triangle];
+  const vec3& a = scene.positions[i[0]];
+  const vec3 cross = glm::cross(scene.positions[i[1]] - a, scene.positions[i[2]] - a);
+  return glm::dot(cross, direction) > 0.0f;
+}
+
 }  // namespace lamplighter

@@ -65,6 +65,9 @@ class RayCaster {
   std::unique_ptr<Impl> impl_;
 };
 
+// Whether a ray with this direction hits the back of the triangle.
+bool isOnBack(const RenderScene& scene, const Hit& hit, const vec3& direction);
+
 // Conservative test whether the ray segment touches the box.
 bool mayTouch(const Ray& ray, const Bounds& box);
 

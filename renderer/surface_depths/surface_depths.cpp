@@ -28,13 +28,11 @@ vec3 lookThrough(const DepthMapLayout& layout, const SurfaceTexel& texel, uint32
   return glm::normalize(d + (kLeastSine - sine) * texel.spot.geometricNormal);
 }
 
+// Whether light from the texel may fall on the surface.
 bool faces(const RenderScene& scene, const Hit& hit, const vec3& direction) {
   const RenderObject& o = scene.objects[hit.object];
-  if (scene.materials[static_cast<size_t>(o.material)].doubleSided) return true;
-  const uint32_t* i = &scene.indices[o.firstIndex + 3 * hit.triangle];
-  const vec3& a = scene.positions[i[0]];
-  const vec3 n = glm::cross(scene.positions[i[1]] - a, scene.positions[i[2]] - a);
-  return glm::dot(n, direction) < 0.0f;
+  return scene.materials[static_cast<size_t>(o.material)].doubleSided ||
+         !isOnBack(scene, hit, direction);
 }
 
 uint16_t rounded(float steps) {

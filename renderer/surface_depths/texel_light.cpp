@@ -15,17 +15,16 @@ namespace {
 // Rays of a texel to a light that is not a point.
 constexpr size_t kRays = 16;
 
-RenderPunctual withoutBrightness(RenderPunctual light) {
-  light.light.intensity = light.nominal = vec3(0.0f);
-  return light;
-}
-
 }  // namespace
 
 uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                             const TexelSet& texels, std::span<const uint32_t> movedObjects,
                             uint32_t seed, uint64_t most) {
   changed_ = false;
+  if (texels.size() == 0) {
+    columns_.clear();
+    return 0;
+  }
   const std::vector<VplId> ids = emitterIds(lights);
   std::vector<Column> before = std::exchange(columns_, std::vector<Column>(ids.size()));
   for (size_t e = 0; e < ids.size(); ++e) {
@@ -39,7 +38,9 @@ uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, con
       column.factors = std::move(old->factors);
       const bool isMoved = light.kind == EmitterKind::surface &&
                            std::ranges::find(movedObjects, light.object) != movedObjects.end();
-      if (old->light == column.light && !isMoved) column.known = old->known;
+      const bool isSame = old->light == column.light && !isMoved;
+      column.first = isSame ? old->first : (old->first + old->known) % texels.size();
+      if (isSame) column.known = old->known;
     } else {
       changed_ = true;
     }
@@ -55,7 +56,8 @@ uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, con
     if (column.known == texels.size()) continue;
     const size_t end =
         std::min(texels.size(), column.known + std::max<size_t>(1, (most - traced) / raysOfTexel));
-    tbb::parallel_for(column.known, end, [&](size_t t) {
+    tbb::parallel_for(column.known, end, [&](size_t i) {
+      const size_t t = (column.first + i) % texels.size();
       const SurfaceTexel& texel = texels[t];
       const std::vector<SurfaceSpot> spots(raysOfTexel, texel.spot);
       std::vector<LightRay> found;

@@ -32,8 +32,10 @@ class TexelLight {
  private:
   struct Column {
     VplId id;
-    RenderPunctual light;       // without its brightness; of punctual lights
-    size_t known = 0;           // texels, from the first on, whose light is that of now
+    RenderPunctual light;  // without its brightness; of punctual lights
+    // Texels whose light is that of now: `known` ones from `first` on, and round to the beginning.
+    // The next search begins where the last one ended, so that no texel waits while a light moves.
+    size_t first = 0, known = 0;
     std::vector<vec3> factors;  // by texel
   };
   std::vector<Column> columns_;  // by emitter

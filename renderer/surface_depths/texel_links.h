@@ -25,7 +25,7 @@ float formFactorOf(const SurfaceSpot& spot, const TexelSet& texels, const TexelT
 // al. 2005) with a sphere and a cone of normals.
 float largestFormFactor(const SurfaceSpot& spot, const TexelTree::Node& node);
 
-// The share of a texel that another one sees, from 0 to 1; called by several threads.
+// Whether a texel sees a point of a surface; called by several threads.
 using Visibility = std::function<bool(uint32_t texel, const vec3& point)>;
 
 class TexelLinks {

@@ -12,7 +12,7 @@ namespace {
 // What memory a texel is expected to take: of each pixel a segment of three bytes for eight texels,
 // and so many links.
 constexpr size_t kSegmentBytes = 3, kTexelsASegment = 8, kLinksATexel = 500;
-// Texels whose links take about as long as a ray.
+// Rays that take about as long as the links of a texel.
 constexpr uint64_t kRaysALinkedTexel = 512;
 
 double areaOf(const RenderScene& scene) {
@@ -38,6 +38,24 @@ bool isBlocked(const RenderScene& scene, const RayCaster& rays, Ray ray) {
   return false;
 }
 
+// Of each object with a mesh.
+std::vector<TexelRadiosity::Sides> sidesOf(const RenderScene& scene) {
+  std::vector<TexelRadiosity::Sides> out;
+  for (size_t o = 0; o < scene.objects.size(); ++o) {
+    if (!scene.slots[o].mesh) continue;
+    const Material& m = scene.materials[static_cast<size_t>(scene.objects[o].material)];
+    TexelRadiosity::Sides& s = out.emplace_back();
+    s.isClear = m.isClear();
+    s.isDoubleSided = m.doubleSided;
+    s.isMasked = m.alphaMode == AlphaMode::mask;
+    if (!s.isMasked) continue;
+    s.cutoff = m.alphaCutoff;
+    s.opacity = m.baseColor.a;
+    s.texture = m.baseColorTexture;
+  }
+  return out;
+}
+
 float sideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
   const size_t bytes =
       options.map.pixels() * kSegmentBytes / kTexelsASegment + kLinksATexel * sizeof(TexelLink);
@@ -51,23 +69,23 @@ float sideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
 // move, the old texels stay: those of a moved object go with it.
 bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
                                   const RenderSceneChanges& changes) {
-  const bool hasMasks = std::ranges::any_of(
-      scene.materials, [](const Material& m) { return m.alphaMode == AlphaMode::mask; });
+  const bool hasOtherSides = changes.materials && sidesOf(scene) != sides_;
   const bool isMoving = std::ranges::any_of(
       changes.movedObjects, [&](uint32_t o) { return scene.slots[o].mesh != nullptr; });
-  const bool isOther = !isStarted_ || changes.rebuilt || (changes.objects && isMoving) ||
-                       (changes.materials && hasMasks);
+  const bool isOther =
+      !isStarted_ || changes.rebuilt || (changes.objects && isMoving) || hasOtherSides;
   isStale_ = isStale_ || isOther || isMoving;
   if (!isStale_ || (isMoving && !isOther)) {
-    // Area lights that came have no atlas.
-    if (changes.objects) atlases_.resize(scene.objects.size());
+    // The places of moved objects, so that pixels find their texels.
+    if (!changes.movedObjects.empty()) takeAtlases(services);
     return false;
   }
   isStarted_ = true;
   isStale_ = false;
+  ++texelVersion_;
+  sides_ = sidesOf(scene);
   counts_.texel = sideOf(scene, options_);
-  const auto atlases = services.charts(1.0f / counts_.texel);
-  atlases_.assign(atlases.begin(), atlases.end());
+  takeAtlases(services);
   const size_t before = texels_.size();
   texels_ = TexelSet(scene, atlases_, options_.order);
   // Texels of moved objects keep their numbers.
@@ -75,14 +93,17 @@ bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
   counts_.rays += texels_.findBuried(scene, services.rays());
   tree_ = TexelTree(texels_);
   depths_.restart(scene, texels_, options_.map);
-  depthKey_ = services.cacheFolder().empty() ? std::nullopt
-                                             : DepthCache::keyOf(scene, texels_, options_.map);
-  // What is on disk need not be saved.
-  if (depthKey_ && DepthCache(services.cacheFolder()).load(*depthKey_, depths_)) depthKey_.reset();
+  hasLookedOnDisk_ = false;
+  depthKey_.reset();
   links_.restart(texels_, options_.linkError);
   light_.restart();
   findAlbedo(scene);
   return true;
+}
+
+void TexelRadiosity::takeAtlases(Services& services) {
+  const auto atlases = services.charts(1.0f / counts_.texel);
+  atlases_.assign(atlases.begin(), atlases.end());
 }
 
 void TexelRadiosity::findAlbedo(const RenderScene& scene) {
@@ -130,26 +151,29 @@ void TexelRadiosity::update(const RenderScene& scene, Services& services,
                                 mostRays / 2);
   isLit_ = isLit_ && !light_.changed();
   usesDepths_ = options_.visibility == TexelVisibility::stored || !scene.nominalSky.isBlack();
-  if (!isStale_) findGeometry(scene, rays, mostRays);
-  if (depthKey_ && usesDepths_ && !isStale_ && depths_.isDone()) {
-    DepthCache(services.cacheFolder()).save(*depthKey_, depths_);
-    depthKey_.reset();
-  }
+  if (!isStale_ && usesDepths_) findDepths(scene, services, mostRays);
+  if (!isStale_ && (!usesDepths_ || depths_.isDone()) && !links_.isDone())
+    findLinks(scene, rays, 1 + mostRays / kRaysALinkedTexel);
   if (links_.isDone() && !isLit_) bounce();
   counts_.bytes = depths_.bytes() + links_.bytes() + light_.bytes();
 }
 
-// Depths, then links, and the light of the sky through the depths.
-void TexelRadiosity::findGeometry(const RenderScene& scene, const RayCaster& rays,
-                                  uint64_t mostRays) {
-  if (usesDepths_ && !depths_.isDone())
-    counts_.rays += depths_.goOn(scene, rays, texels_, mostRays - std::min(mostRays, counts_.rays));
-  if (usesDepths_ && depths_.isDone()) {
-    light_.updateSky(scene, lights_, texels_, depths_);
-    isLit_ = isLit_ && !light_.changed();
+// From disk or by rays; then the light of the sky through them.
+void TexelRadiosity::findDepths(const RenderScene& scene, Services& services, uint64_t mostRays) {
+  const DepthCache files(services.cacheFolder());
+  if (!hasLookedOnDisk_ && !services.cacheFolder().empty()) {
+    depthKey_ = DepthCache::keyOf(scene, texels_, options_.map);
+    // What is on disk need not be saved.
+    if (depthKey_ && files.load(*depthKey_, depths_)) depthKey_.reset();
   }
-  if ((!usesDepths_ || depths_.isDone()) && !links_.isDone())
-    findLinks(scene, rays, 1 + mostRays / kRaysALinkedTexel);
+  hasLookedOnDisk_ = true;
+  if (!depths_.isDone())
+    counts_.rays +=
+        depths_.goOn(scene, services.rays(), texels_, mostRays - std::min(mostRays, counts_.rays));
+  if (!depths_.isDone()) return;
+  if (depthKey_) files.save(*std::exchange(depthKey_, std::nullopt), depths_);
+  light_.updateSky(scene, lights_, texels_, depths_);
+  isLit_ = isLit_ && !light_.changed();
 }
 
 // Jacobi iterations: what texels reflect is averaged upwards, then gathered along the links.
@@ -172,6 +196,8 @@ bool TexelRadiosity::isDone() const {
          unseen_.none();
 }
 
-float TexelRadiosity::progress() const { return 0.5f * (depths_.progress() + links_.progress()); }
+float TexelRadiosity::progress() const {
+  return usesDepths_ ? 0.5f * (depths_.progress() + links_.progress()) : links_.progress();
+}
 
 }  // namespace lamplighter

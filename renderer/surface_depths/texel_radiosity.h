@@ -1,11 +1,11 @@
 // Bounced light of a scene at its texels: hierarchical radiosity along kept links, with visibility
-// stored on the surfaces (paper 3, sections 3 and 4).
+// stored on the surfaces or found by rays (paper 3, sections 3 and 4).
 //
 // After geometry changed, depths, then links are found over several frames; meanwhile texels keep
 // their light. When all is found, the light is that of a fresh start, bit for bit.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/services/services.h"
@@ -39,10 +39,12 @@ class TexelRadiosity {
               uint64_t mostRays);
   // Whether the light is that of a fresh start.
   bool isDone() const;
-  // Share of depths and links that is found.
+  // Share of what is needed of depths and links that is found.
   float progress() const;
-  // Differs if irradiance() or the places of texels differ.
+  // Differs if irradiance() differs.
   uint32_t version() const { return version_; }
+  // Differs if texels() are other ones, or others of them are buried.
+  uint32_t texelVersion() const { return texelVersion_; }
 
   // Of bounced light, by texel [W/m²]; empty before it is found for the first time.
   const std::vector<vec3>& irradiance() const { return irradiance_; }
@@ -50,7 +52,6 @@ class TexelRadiosity {
   // By object.
   const std::vector<ObjectAtlas>& atlases() const { return atlases_; }
   const SurfaceDepths& depths() const { return depths_; }
-  const TexelTree& tree() const { return tree_; }
   const TexelLinks& links() const { return links_; }
 
   // Of the last update.
@@ -62,10 +63,19 @@ class TexelRadiosity {
   const Counts& counts() const { return counts_; }
   void forget() { *this = TexelRadiosity(); }
 
+  // What texels and rays depend on, of the material of an object.
+  struct Sides {
+    bool isClear = false, isDoubleSided = false, isMasked = false;
+    float cutoff = 0.0f, opacity = 1.0f;  // of a mask
+    TextureRef texture;
+    bool operator==(const Sides&) const = default;
+  };
+
  private:
   bool takeGeometry(const RenderScene& scene, Services& services,
                     const RenderSceneChanges& changes);
-  void findGeometry(const RenderScene& scene, const RayCaster& rays, uint64_t mostRays);
+  void takeAtlases(Services& services);
+  void findDepths(const RenderScene& scene, Services& services, uint64_t mostRays);
   void findLinks(const RenderScene& scene, const RayCaster& rays, size_t most);
   void findAlbedo(const RenderScene& scene);
   void bounce();
@@ -77,15 +87,17 @@ class TexelRadiosity {
   TexelSet texels_;
   TexelTree tree_;
   SurfaceDepths depths_;
+  bool hasLookedOnDisk_ = false;        // for these depths
   std::optional<ContentKey> depthKey_;  // of depths that are to be saved
   TexelLinks links_;
   TexelLight light_;
+  std::vector<Sides> sides_;      // of objects with a mesh
   std::vector<vec3> albedo_;      // by texel
   std::vector<vec3> irradiance_;  // by texel
   bool usesDepths_ = true;
   bool isStale_ = false;                    // surfaces moved since texels were found
   bool isStarted_ = false, isLit_ = false;  // isLit_: irradiance_ is that of now
-  uint32_t version_ = 0;
+  uint32_t version_ = 0, texelVersion_ = 0;
   Counts counts_;
 };
 

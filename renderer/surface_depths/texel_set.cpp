@@ -23,13 +23,6 @@ constexpr int kBuriedRays = 32, kBuriedShare = 8;
 constexpr float kBuriedNear = 4.0f;
 constexpr uint32_t kBuriedSet = 0x8b;
 
-bool isBack(const RenderScene& scene, const Hit& hit, const vec3& direction) {
-  const uint32_t* i = &scene.indices[scene.objects[hit.object].firstIndex + 3 * hit.triangle];
-  const vec3& a = scene.positions[i[0]];
-  return glm::dot(glm::cross(scene.positions[i[1]] - a, scene.positions[i[2]] - a), direction) >
-         0.0f;
-}
-
 // A place of a texel on a triangle.
 struct Covered {
   vec2 at;  // [texels]
@@ -234,7 +227,7 @@ uint64_t TexelSet::findBuried(const RenderScene& scene, const RayCaster& rays) {
       const Ray ray{spot.rayOrigin(), 0.0f, gatherDirection(spot, d), near};
       if (ray.direction == vec3(0.0f)) continue;
       const Hit hit = rays.intersect(ray);
-      if (hit && scene.backIsUnseen(hit.object) && isBack(scene, hit, ray.direction)) ++inside;
+      if (hit && scene.backIsUnseen(hit.object) && isOnBack(scene, hit, ray.direction)) ++inside;
     }
     isBuried_[t] = kBuriedShare * inside > kBuriedRays ? 1 : 0;
   });

@@ -15,11 +15,6 @@
 namespace lamplighter {
 namespace {
 
-RenderPunctual withoutBrightness(RenderPunctual light) {
-  light.light.intensity = light.nominal = vec3(0.0f);
-  return light;
-}
-
 // Rays from an element to a light of which it sees a part.
 constexpr uint32_t kPartialRays = 24, kPartialSet = 0x52;
 // Large elements whose corners agree are tested by some of them for shadows between the corners.

@@ -24,6 +24,11 @@ float cosineOf(const SurfaceSpot& spot, const vec3& w) {
 
 }  // namespace
 
+RenderPunctual withoutBrightness(RenderPunctual light) {
+  light.light.intensity = light.nominal = vec3(0.0f);
+  return light;
+}
+
 EmitterFactor::EmitterFactor(const RenderScene& scene, const LightSet& lights, size_t emitter,
                              const VplId& id, uint32_t seed)
     : scene_(scene),

@@ -19,6 +19,9 @@ struct LightRay {
   uint32_t spot = 0;      // on which it falls
 };
 
+// To tell whether anything but the brightness of a light changed.
+RenderPunctual withoutBrightness(RenderPunctual light);
+
 class EmitterFactor {
  public:
   EmitterFactor(const RenderScene& scene, const LightSet& lights, size_t emitter, const VplId& id,

@@ -47,10 +47,7 @@ GatherLink linkTo(const GatherScene& in, const Hit& hit, const Ray& ray) {
     return link;
   }
   link.distance = roundedUp(hit.t);
-  const uint32_t* i = &scene.indices[scene.objects[hit.object].firstIndex + 3 * hit.triangle];
-  const vec3& a = scene.positions[i[0]];
-  const vec3 cross = glm::cross(scene.positions[i[1]] - a, scene.positions[i[2]] - a);
-  const bool isBack = glm::dot(cross, ray.direction) > 0.0f;
+  const bool isBack = isOnBack(scene, hit, ray.direction);
   MeshPoint point;
   if (in.mesh.find(scene, hit.object, hit.triangle, isBack, {hit.u, hit.v}, point)) {
     link.leaf = point.leaf;

@@ -47,10 +47,8 @@ const ParameterTable<P>& manyLightsParameters() {
        "",
        "samples: light samples carry it. meshes: surfaces keep it and the light of the sky, smooth "
        "and current in each frame, and all light samples are placed on lamps and suns. links: "
-       "texels "
-       "of the surfaces exchange it along links that are found once, so that moving lights trace "
-       "no "
-       "rays for bounced light. automatic: meshes on the cpu backend, samples on gl and with prt.",
+       "texels of the surfaces exchange it along links that are found once, so that moving lights "
+       "trace no rays for it. automatic: meshes on the cpu backend, samples on gl and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
         {"meshes", ManyLightsIndirect::meshes},
@@ -296,6 +294,13 @@ const ParameterTable<P>& manyLightsParameters() {
        "replays do not refine; render does only if this is set.",
        {0, 1 << 24, kLogarithmic},
        picture}};
+  return table;
+}
+
+const ParameterTable<ManyLightsParameters>& directSampleParameters() {
+  static const ParameterTable<ManyLightsParameters> table{
+      manyLightsParameters().only("vpls"), manyLightsParameters().only("antialias"),
+      manyLightsParameters().only("share_memory"), manyLightsParameters().only("refine")};
   return table;
 }
 

@@ -55,5 +55,7 @@ struct ManyLightsParameters : LightSumParameters,
 };
 
 const ParameterTable<ManyLightsParameters>& manyLightsParameters();
+// Those of them that methods have whose light samples are all placed on the lights.
+const ParameterTable<ManyLightsParameters>& directSampleParameters();
 
 }  // namespace lamplighter

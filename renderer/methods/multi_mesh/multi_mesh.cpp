@@ -27,16 +27,9 @@ std::span<const StageSpec> stagesOf() {
 }
 
 // Direct light of other lights is that of many_lights, whose parameters have the same names.
-const ParameterTable<ManyLightsParameters>& sampleParametersOfMultiMesh() {
-  static const ParameterTable<ManyLightsParameters> table{
-      manyLightsParameters().only("vpls"), manyLightsParameters().only("antialias"),
-      manyLightsParameters().only("share_memory"), manyLightsParameters().only("refine")};
-  return table;
-}
-
 std::vector<ParameterSpec> parameterSpecs() {
   std::vector<ParameterSpec> specs = multiMeshParameters().specs();
-  const auto& more = sampleParametersOfMultiMesh().specs();
+  const auto& more = directSampleParameters().specs();
   specs.insert(specs.end(), more.begin(), more.end());
   return specs;
 }

@@ -33,10 +33,7 @@ struct MultiMeshParameters : PathParameters,
                              FrameBudgetParameters,
                              SurfaceLightParameters,
                              SurfaceParameters,
-                             DirectMeshParameters {
-  int antialias = 4;
-};
-// Those of them that are not in tables of their own.
+                             DirectMeshParameters {};
 const ParameterTable<MultiMeshParameters>& multiMeshParameters();
 
 }  // namespace lamplighter

@@ -20,11 +20,9 @@ struct Parameters : PathParameters,
 std::vector<ParameterSpec> parameterSpecs() {
   static const ParameterTable<Parameters> own{pathParameters(), frameBudgetParameters(),
                                               surfaceParameters(), storedDepthParameters()};
-  static const ParameterTable<ManyLightsParameters> direct{
-      manyLightsParameters().only("vpls"), manyLightsParameters().only("antialias"),
-      manyLightsParameters().only("share_memory"), manyLightsParameters().only("refine")};
   std::vector<ParameterSpec> specs = own.specs();
-  specs.insert(specs.end(), direct.specs().begin(), direct.specs().end());
+  const auto& direct = directSampleParameters().specs();
+  specs.insert(specs.end(), direct.begin(), direct.end());
   // As published; rays are the default of many_lights.
   for (ParameterSpec& spec : specs)
     if (spec.name == kVisibility) spec.defaultValue = std::string(kStored);

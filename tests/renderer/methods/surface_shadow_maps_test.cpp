@@ -100,19 +100,63 @@ TEST(SurfaceShadowMaps, EditsLeaveTheBitsOfAFreshStart) {
   EXPECT_TRUE(test::sameBits(back, before));
 }
 
-// The light of before stays until its links are found anew.
+// The light of before stays, and moves with the object, until its links are found anew.
 TEST(SurfaceShadowMaps, AnObjectThatMovesKeepsItsLight) {
   BouncedRoom room;
-  const vec3 before = test::meanOf(room.picture(SceneChanges::all()));
-  for (int step = 0; step < 3; ++step) {
+  room.settings.set("antialias", 1);
+  const auto indirect = [&](const SceneChanges& changes) {
+    return room.renderer.render({.scene = room.scene,
+                                 .changes = changes,
+                                 .view = room.view,
+                                 .method = "surface_shadow_maps",
+                                 .settings = room.settings,
+                                 .part = LightPart::indirect});
+  };
+  SceneChanges changes = SceneChanges::all();
+  while (!indirect(changes).settled) changes = {};
+  Image moving;
+  for (int step = 0; step < 8; ++step) {
     const Scene old = room.scene;
-    room.scene.find(room.box)->local.translation.z += 0.05f;
-    const GiOutput out = room.renderer.render(
-        {room.scene, compare(old, room.scene), room.view, "surface_shadow_maps", room.settings});
+    room.scene.find(room.box)->local.translation.z += 0.1f;
+    const GiOutput out = indirect(compare(old, room.scene));
     EXPECT_FALSE(out.settled);
-    EXPECT_NEAR(test::meanOf(out.radiance->pixels()).r / before.r, 1.0f, 0.05f);
+    moving = out.radiance->pixels();
   }
+  GiOutput settled;
+  do settled = indirect({});
+  while (!settled.settled);
+  const double error = compareImages(moving, settled.radiance->pixels()).relRmse;
+  EXPECT_LT(error, 0.1);
   EXPECT_TRUE(test::sameBits(room.picture(), room.fresh()));
+}
+
+TEST(SurfaceShadowMaps, EditsOfMaterialsLeaveTheBitsOfAFreshStart) {
+  BouncedRoom room;
+  room.picture(SceneChanges::all());
+  const Image coloured = room.edited([](Scene& s) { s.materials[1].baseColor.g = 0.7f; });
+  EXPECT_EQ(room.rays, 0.0);
+  EXPECT_TRUE(test::sameBits(coloured, room.fresh()));
+  const Image sided = room.edited([](Scene& s) { s.materials[1].doubleSided = true; });
+  EXPECT_TRUE(test::sameBits(sided, room.fresh()));
+  const Image clear = room.edited([](Scene& s) { s.materials[1].transmission = 1.0f; });
+  EXPECT_TRUE(test::sameBits(clear, room.fresh()));
+}
+
+// With rays nothing waits for depths.
+TEST(SurfaceShadowMaps, IsPreparedInTheEnd) {
+  for (const std::string visibility : {"stored", "rays"}) {
+    BouncedRoom room;
+    room.settings.set("link_visibility", visibility);
+    FrameRenderer renderer(makeCpuBackend());
+    SceneChanges changes = SceneChanges::all();
+    GiOutput out;
+    for (int frame = 0; frame < 3000 && !out.settled; ++frame) {
+      out = renderer.render({room.scene, changes, room.view, "surface_shadow_maps", room.settings});
+      changes = {};
+    }
+    EXPECT_EQ(out.stats.of("prepared"), 100.0) << visibility;
+    EXPECT_EQ(out.stats.of("depth_segments") > 0.0, visibility == "stored");
+  }
 }
 
 TEST(SurfaceShadowMaps, IsManyLightsWithLinks) {

@@ -114,7 +114,7 @@ TEST(SurfaceDepths, ComeBackFromBytes) {
   EXPECT_FALSE(depths.restore({}));
 }
 
-TEST(SurfaceDepths, CoherentOrdersNeedFewerSegments) {
+TEST(SurfaceDepths, ASegmentStandsForSeveralPixelsInEachOrder) {
   const DepthMapLayout layout{DepthMapKind::cube, 16};
   const test::RoomTexels zigzag(true), spiral(true, 0.25f, TexelOrder::spiral);
   const SurfaceDepths a = zigzag.depths(layout), b = spiral.depths(layout);
