@@ -94,7 +94,9 @@ TEST(TexelSet, LeavesOutTexelsUnderABox) {
       ++under;
       EXPECT_TRUE(room.texels.isBuried(t)) << p.x << ' ' << p.z;
     }
-    if (isOpen) EXPECT_FALSE(room.texels.isBuried(t)) << p.x << ' ' << p.y << ' ' << p.z;
+    if (isOpen) {
+      EXPECT_FALSE(room.texels.isBuried(t)) << p.x << ' ' << p.y << ' ' << p.z;
+    }
   }
   EXPECT_GT(under, 8u);
 }
