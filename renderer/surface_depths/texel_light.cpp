@@ -17,6 +17,20 @@ constexpr size_t kRays = 16;
 
 }  // namespace
 
+void TexelLight::outdate(const TexelMoves& moves, bool haveTexelsMoved) {
+  moves_ = moves;
+  for (Column& column : columns_) {
+    const bool isCurrent = column.since == Since::move && !haveTexelsMoved;
+    column.isKept = column.since == Since::rest && column.known == column.factors.size();
+    column.factors = moves.carried(column.factors);
+    if (!isCurrent) column.first = column.known = 0;
+    column.since = Since::rest;
+  }
+  seenSky_.outdate(moves);
+  skyLight_ = moves.carried(skyLight_);
+  sky_ = {};
+}
+
 uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                             const TexelSet& texels, std::span<const uint32_t> movedObjects,
                             uint32_t seed, uint64_t most) {
@@ -40,9 +54,17 @@ uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, con
                            std::ranges::find(movedObjects, light.object) != movedObjects.end();
       const bool isSame = old->light == column.light && !isMoved;
       column.first = isSame ? old->first : (old->first + old->known) % texels.size();
-      if (isSame) column.known = old->known;
+      if (isSame) {
+        column.known = old->known;
+        column.isKept = old->isKept;
+        const bool isWhole = old->since == Since::rest && old->known == texels.size();
+        column.since = movedObjects.empty() || isWhole ? old->since : Since::mixed;
+      } else {
+        column.since = movedObjects.empty() ? Since::rest : Since::move;
+      }
     } else {
       changed_ = true;
+      column.since = movedObjects.empty() ? Since::rest : Since::move;
     }
     column.factors.resize(texels.size(), vec3(0.0f));
   }
@@ -61,7 +83,11 @@ uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, con
       const SurfaceTexel& texel = texels[t];
       const std::vector<SurfaceSpot> spots(raysOfTexel, texel.spot);
       std::vector<LightRay> found;
-      factor.raysTo(spots, scene.objects[texel.object].leftOutBy, static_cast<uint32_t>(t), found);
+      factor.raysTo(spots, scene.objects[texel.object].leftOutBy, seedOf(texel), found);
+      const bool isKept =
+          column.isKept && moves_.isKept(t) &&
+          std::ranges::none_of(found, [&](const LightRay& r) { return moves_.meets(r.ray); });
+      if (isKept) return;
       vec3 sum(0.0f);
       for (const LightRay& r : found)
         if (!rays.occluded(r.ray)) sum += r.irradiance;
@@ -74,33 +100,29 @@ uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, con
   return traced;
 }
 
-void TexelLight::updateSky(const RenderScene& scene, const LightSet& lights, const TexelSet& texels,
-                           const SurfaceDepths& depths) {
+uint64_t TexelLight::updateSky(const RenderScene& scene, const LightSet& lights,
+                               const TexelSet& texels, const TexelSky::Open& isOpen,
+                               uint64_t most) {
   const Sky sky = lights.unitSky();
-  if (sky == sky_ && skyLight_.size() == texels.size()) return;
+  if (sky == sky_ && skyLight_.size() == texels.size() && seenSky_.isDone()) return 0;
+  uint64_t tested = 0;
+  if (sky.isBlack()) {
+    skyLight_.assign(texels.size(), vec3(0.0f));
+    seenSky_.restart(0);
+  } else {
+    if (seenSky_.texels() != texels.size()) seenSky_.restart(texels.size());
+    tested = seenSky_.goOn(texels, isOpen, most);
+    if (!seenSky_.isDone()) return tested;
+    skyLight_ = seenSky_.light(scene, lights, texels);
+  }
   sky_ = sky;
   changed_ = true;
-  skyLight_.assign(texels.size(), vec3(0.0f));
-  if (sky.isBlack()) return;
-  const DepthMapLayout& layout = depths.layout();
-  std::vector<vec3> directions, light;  // by pixel; radiance times solid angle
-  for (uint32_t q = 0; q < layout.pixels(); ++q) {
-    directions.push_back(layout.directionOf(q));
-    light.push_back(layout.solidAngleOf(q) * lights.referenceSky().withoutSuns(directions[q]) /
-                    lights.skyReference());
-  }
-  tbb::parallel_for(size_t{0}, texels.size(), [&](size_t t) {
-    const SurfaceTexel& texel = texels[t];
-    if (isLeftOut(scene.objects[texel.object].leftOutBy, scene.skyLink)) return;
-    for (uint32_t q = 0; q < layout.pixels(); ++q) {
-      const float cosine = glm::dot(texel.spot.normal, directions[q]);
-      if (cosine > 0.0f && depths.isOpen(t, q)) skyLight_[t] += cosine * light[q];
-    }
-  });
+  return tested;
 }
 
 bool TexelLight::isDone() const {
-  return std::ranges::all_of(columns_, [](const Column& c) { return c.known == c.factors.size(); });
+  return seenSky_.isDone() &&
+         std::ranges::all_of(columns_, [](const Column& c) { return c.known == c.factors.size(); });
 }
 
 void TexelLight::sum(const LightSet& lights, std::vector<vec3>& out) const {
@@ -115,7 +137,7 @@ void TexelLight::sum(const LightSet& lights, std::vector<vec3>& out) const {
 }
 
 size_t TexelLight::bytes() const {
-  size_t bytes = skyLight_.size() * sizeof(vec3);
+  size_t bytes = skyLight_.size() * sizeof(vec3) + seenSky_.bytes();
   for (const Column& c : columns_) bytes += c.factors.size() * sizeof(vec3);
   return bytes;
 }

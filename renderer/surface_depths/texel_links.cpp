@@ -1,10 +1,14 @@
 #include "renderer/surface_depths/texel_links.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/surface_depths/link_bound.h"
 #include "renderer/surface_light/form_factor.h"
 
 namespace lamplighter {
@@ -13,13 +17,7 @@ namespace {
 // Squares nearer than so many of their sides have their form factor in closed form.
 constexpr float kNear = 6.0f;
 // Texels of a node whose visibility stands for all.
-constexpr uint32_t kTested = 4;
-
-// cos(max(0, a − b)) of angles given by sine and cosine, in [0, π].
-float cosineOfDifference(float cosA, float sinA, float cosB, float sinB) {
-  return cosA >= cosB ? 1.0f : cosA * cosB + sinA * sinB;
-}
-float sineOf(float cosine) { return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)); }
+constexpr uint32_t kTested = 4;  // bits of TexelLink::seen
 
 }  // namespace
 
@@ -39,82 +37,74 @@ float formFactorOf(const SurfaceSpot& spot, const TexelSet& texels, const TexelT
   return here * there * node.area / (kPi * d2);
 }
 
-float largestFormFactor(const SurfaceSpot& spot, const TexelTree::Node& node) {
-  const vec3 d = node.centre - spot.position;
-  const float distance = glm::length(d);
-  if (distance <= node.radius) return 1.0f;
-  // The sphere is seen within the angle α.
-  const float sinA = node.radius / distance, cosA = sineOf(sinA);
-  const vec3 w = d / distance;
-  const float cosR = glm::dot(spot.normal, w);
-  const float here = cosineOfDifference(cosR, sineOf(cosR), cosA, sinA);
-  const float length = glm::length(node.normal);
-  float there = 1.0f;
-  if (length > 0.0f) {
-    const float cosS = -glm::dot(node.normal, w) / length;
-    const float sinS = sineOf(cosS), sinB = sineOf(node.cosCone);
-    // θ − β, then − α.
-    const float turned = cosineOfDifference(cosS, sinS, node.cosCone, sinB);
-    there = turned >= 1.0f ? 1.0f : cosineOfDifference(turned, sineOf(turned), cosA, sinA);
-  }
-  if (here <= 0.0f || there <= 0.0f) return 0.0f;
-  const float near = distance - node.radius;
-  return std::min(1.0f, here * there * node.area / std::max(kPi * near * near, 1e-12f));
-}
-
 void TexelLinks::restart(const TexelSet& texels, float error) {
   *this = {};
   error_ = error;
-  starts_.assign(texels.size() + 1, 0);
+  count_ = texels.size();
+}
+
+void TexelLinks::restart(const TexelTree& before, const TexelSet& texels, const TexelTree& tree,
+                         TexelMoves moves) {
+  // Links that were not all found are no use; those before them are.
+  FormerLinks former =
+      isDone() ? FormerLinks(before, std::move(table_), error_) : std::exchange(former_, {});
+  restart(texels, error_);
+  former_ = std::move(former);
+  if (!former_.empty()) former_.compareWith(tree, std::move(moves));
 }
 
 void TexelLinks::goOn(const TexelSet& texels, const TexelTree& tree, const Visibility& sees,
                       size_t most) {
-  const size_t count = std::min(most, starts_.size() - 1 - next_);
+  const size_t count = std::min(most, count_ - next_);
   std::vector<std::vector<TexelLink>> found(count);
+  std::atomic<uint64_t> tested = 0, known = 0;
   tbb::parallel_for(size_t{0}, count, [&](size_t i) {
     const auto texel = static_cast<uint32_t>(next_ + i);
     const SurfaceSpot& spot = texels[texel].spot;
-    for (uint32_t n = 0; n < tree.size();) {
+    FormerLinks::OfTexel former = former_.of(texel, spot);
+    uint64_t asked = 0, kept = 0;
+    forEachEnd(spot, tree, error_, [&](uint32_t n) {
       const TexelTree::Node& node = tree[n];
-      const float largest = largestFormFactor(spot, node);
-      if (!node.isLeaf() && largest > error_) {
-        ++n;
-        continue;
-      }
-      const uint32_t number = n;
-      n = node.skip;
-      if (largest <= 0.0f || (node.isLeaf() && tree.texelOf(node) == texel)) continue;
+      if (node.isLeaf() && tree.texelOf(node) == texel) return;
       const float factor = formFactorOf(spot, texels, tree, node);
-      if (factor <= 0.0f) continue;
-      const uint32_t tested = std::min(node.texels, kTested);
+      if (factor <= 0.0f) return;
+      const std::optional<uint32_t> before = former.seen(n);
+      const uint32_t places = std::min(node.texels, kTested);
       uint32_t seen = 0;
-      for (uint32_t k = 0; k < tested; ++k) {
-        const uint32_t sender =
-            tree.order()[node.firstTexel + (2 * k + 1) * node.texels / (2 * tested)];
-        seen += sees(texel, texels[sender].spot.position) ? 1 : 0;
+      for (uint32_t k = 0; k < places; ++k) {
+        const vec3& point = texels[tree.testedTexel(node, k, places)].spot.position;
+        const vec3 from = spot.rayOrigin();
+        const bool isKept = before && !former_.moves().meets({from, 0.0f, point - from, 1.0f});
+        const bool isSeen = isKept ? (*before >> k & 1u) != 0 : sees(texel, point);
+        seen |= isSeen ? 1u << k : 0u;
+        ++(isKept ? kept : asked);
       }
-      if (seen > 0)
+      if (seen != 0)
         found[i].push_back(
-            {number, factor * static_cast<float>(seen) / static_cast<float>(tested)});
-    }
+            {n, seen,
+             factor * static_cast<float>(std::popcount(seen)) / static_cast<float>(places)});
+    });
+    tested += asked;
+    known += kept;
   });
+  tested_ = tested;
+  known_ = known;
   for (size_t i = 0; i < count; ++i) {
     // More than all of the hemisphere is seen where surfaces coincide.
     float sum = 0.0f;
     for (const TexelLink& link : found[i]) sum += link.weight;
     if (sum > 1.0f)
       for (TexelLink& link : found[i]) link.weight /= sum;
-    links_.insert(links_.end(), found[i].begin(), found[i].end());
-    starts_[next_ + i + 1] = links_.size();
+    table_.links.insert(table_.links.end(), found[i].begin(), found[i].end());
+    table_.starts.push_back(table_.links.size());
   }
   next_ += count;
+  if (isDone()) former_ = {};
 }
 
 void TexelLinks::gather(const std::vector<vec3>& radiosity, std::vector<vec3>& irradiance) const {
-  irradiance.assign(starts_.size() - 1, vec3(0.0f));
-  tbb::parallel_for(size_t{0}, irradiance.size(), [&](size_t t) {
-    if (t >= next_) return;
+  irradiance.assign(count_, vec3(0.0f));
+  tbb::parallel_for(size_t{0}, next_, [&](size_t t) {
     vec3 sum(0.0f);
     for (const TexelLink& link : of(t)) sum += link.weight * radiosity[link.node];
     irradiance[t] = sum;

@@ -12,8 +12,13 @@ namespace {
 // What memory a texel is expected to take: of each pixel a segment of three bytes for eight texels,
 // and so many links.
 constexpr size_t kSegmentBytes = 3, kTexelsASegment = 8, kLinksATexel = 500;
-// Rays that take about as long as the links of a texel.
-constexpr uint64_t kRaysALinkedTexel = 512;
+// Texels that are larger for want of memory get larger by this factor at a time, so that moves,
+// which change the area by rounding, do not change them.
+constexpr float kSideStep = 1.1f;
+// Texels whose links are found at a time, the work of one in rays besides its tests, and tests of
+// known answer that take as long as a ray.
+constexpr size_t kLinkedAtATime = 64;
+constexpr uint64_t kRaysALinkedTexel = 128, kKnownARay = 8;
 
 double areaOf(const RenderScene& scene) {
   double area = 0.0;
@@ -38,13 +43,13 @@ bool isBlocked(const RenderScene& scene, const RayCaster& rays, Ray ray) {
   return false;
 }
 
-// Of each object with a mesh.
+// By object.
 std::vector<TexelRadiosity::Sides> sidesOf(const RenderScene& scene) {
   std::vector<TexelRadiosity::Sides> out;
   for (size_t o = 0; o < scene.objects.size(); ++o) {
-    if (!scene.slots[o].mesh) continue;
-    const Material& m = scene.materials[static_cast<size_t>(scene.objects[o].material)];
     TexelRadiosity::Sides& s = out.emplace_back();
+    if (!scene.slots[o].mesh || scene.objects[o].isEmpty()) continue;
+    const Material& m = scene.materials[static_cast<size_t>(scene.objects[o].material)];
     s.isClear = m.isClear();
     s.isDoubleSided = m.doubleSided;
     s.isMasked = m.alphaMode == AlphaMode::mask;
@@ -60,7 +65,10 @@ float sideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
   const size_t bytes =
       options.map.pixels() * kSegmentBytes / kTexelsASegment + kLinksATexel * sizeof(TexelLink);
   const double most = std::max(1.0, static_cast<double>(options.memory / bytes));
-  return std::max(options.texel, static_cast<float>(std::sqrt(areaOf(scene) / most)));
+  const double factor = std::sqrt(areaOf(scene) / most) / static_cast<double>(options.texel);
+  if (factor <= 1.0) return options.texel;
+  const double steps = std::ceil(std::log(factor) / std::log(static_cast<double>(kSideStep)));
+  return options.texel * static_cast<float>(std::pow(static_cast<double>(kSideStep), steps));
 }
 
 }  // namespace
@@ -69,36 +77,72 @@ float sideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
 // move, the old texels stay: those of a moved object go with it.
 bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
                                   const RenderSceneChanges& changes) {
-  const bool hasOtherSides = changes.materials && sidesOf(scene) != sides_;
+  const bool isOther = !isStarted_ || changes.rebuilt;
   const bool isMoving = std::ranges::any_of(
       changes.movedObjects, [&](uint32_t o) { return scene.slots[o].mesh != nullptr; });
-  const bool isOther =
-      !isStarted_ || changes.rebuilt || (changes.objects && isMoving) || hasOtherSides;
-  isStale_ = isStale_ || isOther || isMoving;
-  if (!isStale_ || (isMoving && !isOther)) {
+  // Objects that came or went, or let other rays through.
+  const bool isReplaced = (changes.objects && isMoving) || (changes.materials && takeSides(scene));
+  moved_.insert(changes.movedObjects.begin(), changes.movedObjects.end());
+  isStale_ = isStale_ || isOther || isMoving || isReplaced;
+  if (!changes.movedObjects.empty() && !isOther && !isReplaced) {
     // The places of moved objects, so that pixels find their texels.
-    if (!changes.movedObjects.empty()) takeAtlases(services);
+    takeAtlases(services);
+    return false;
+  }
+  if (!isStale_) {
+    // Area lights alone moved: they block the light of others.
+    if (!moved_.empty()) light_.outdate(places_.movesTo(scene, texels_, moved_), false);
+    movedSinceLinks_.insert(moved_.begin(), moved_.end());
+    moved_.clear();
     return false;
   }
   isStarted_ = true;
   isStale_ = false;
   ++texelVersion_;
-  sides_ = sidesOf(scene);
-  counts_.texel = sideOf(scene, options_);
+  takeSides(scene);
+  const float side = sideOf(scene, options_);
+  const bool isAnew =
+      isOther || side != counts_.texel || options_.visibility == TexelVisibility::stored;
+  counts_.texel = side;
   takeAtlases(services);
-  const size_t before = texels_.size();
   texels_ = TexelSet(scene, atlases_, options_.order);
-  // Texels of moved objects keep their numbers.
-  if (texels_.size() != before || changes.rebuilt || changes.objects) irradiance_.clear();
   counts_.rays += texels_.findBuried(scene, services.rays());
-  tree_ = TexelTree(texels_);
-  depths_.restart(scene, texels_, options_.map);
-  hasLookedOnDisk_ = false;
-  depthKey_.reset();
-  links_.restart(texels_, options_.linkError);
-  light_.restart();
+  const TexelTree before = std::exchange(tree_, TexelTree(texels_));
+  const TexelMoves moves = places_.movesTo(scene, texels_, moved_);
+  if (changes.rebuilt) irradiance_.clear();
+  if (!irradiance_.empty()) irradiance_ = moves.carried(irradiance_);
+  if (isAnew) {
+    depths_.restart(scene, texels_, options_.map);
+    hasLookedOnDisk_ = false;
+    depthKey_.reset();
+    links_.restart(texels_, options_.linkError);
+    light_.restart();
+  } else {
+    if (links_.isDone()) {
+      placesOfLinks_ = places_;
+      movedSinceLinks_.clear();
+    }
+    movedSinceLinks_.insert(moved_.begin(), moved_.end());
+    links_.restart(before, texels_, tree_,
+                   placesOfLinks_.movesTo(scene, texels_, movedSinceLinks_));
+    light_.outdate(moves, true);
+  }
+  places_ = TexelPlaces(scene, texels_);
+  moved_.clear();
   findAlbedo(scene);
   return true;
+}
+
+// Counts objects whose material lets other rays through as moved. Returns whether there are any.
+bool TexelRadiosity::takeSides(const RenderScene& scene) {
+  const std::vector<Sides> before = std::exchange(sides_, sidesOf(scene));
+  bool isOther = false;
+  for (uint32_t o = 0; o < std::min(before.size(), sides_.size()); ++o) {
+    if (before[o] == sides_[o]) continue;
+    moved_.insert(o);
+    isOther = true;
+  }
+  return isOther;
 }
 
 void TexelRadiosity::takeAtlases(Services& services) {
@@ -113,26 +157,25 @@ void TexelRadiosity::findAlbedo(const RenderScene& scene) {
   });
 }
 
-void TexelRadiosity::findLinks(const RenderScene& scene, const RayCaster& rays, size_t most) {
-  if (options_.visibility == TexelVisibility::stored) {
-    links_.goOn(
-        texels_, tree_,
-        [&](uint32_t t, const vec3& point) { return depths_.sees(texels_[t], t, point); }, most);
-    return;
+void TexelRadiosity::findLinks(const RenderScene& scene, const RayCaster& rays, uint64_t most) {
+  const Visibility byRays = [&](uint32_t t, const vec3& point) {
+    const vec3 from = texels_[t].spot.rayOrigin(), d = point - from;
+    if (glm::dot(d, texels_[t].spot.geometricNormal) <= 0.0f) return false;
+    return !isBlocked(scene, rays, {from, 0.0f, d, 1.0f - 1e-3f});
+  };
+  const Visibility byDepths = [&](uint32_t t, const vec3& point) {
+    return depths_.sees(texels_[t], t, point);
+  };
+  for (uint64_t spent = 0; !links_.isDone() && spent < most;) {
+    links_.goOn(texels_, tree_, usesDepths() ? byDepths : byRays, kLinkedAtATime);
+    spent += links_.tested() + links_.known() / kKnownARay + kRaysALinkedTexel * kLinkedAtATime;
+    counts_.links += links_.tested();
   }
-  links_.goOn(
-      texels_, tree_,
-      [&](uint32_t t, const vec3& point) {
-        const vec3 from = texels_[t].spot.rayOrigin(), d = point - from;
-        if (glm::dot(d, texels_[t].spot.geometricNormal) <= 0.0f) return false;
-        return !isBlocked(scene, rays, {from, 0.0f, d, 1.0f - 1e-3f});
-      },
-      most);
 }
 
 void TexelRadiosity::update(const RenderScene& scene, Services& services,
                             const TexelRadiosityOptions& options, uint64_t mostRays) {
-  counts_.rays = 0;
+  counts_.rays = counts_.links = 0;
   const RenderSceneChanges changes = std::exchange(unseen_, {});
   TexelRadiosityOptions other = options;
   other.bounces = options_.bounces;
@@ -150,15 +193,16 @@ void TexelRadiosity::update(const RenderScene& scene, Services& services,
   counts_.rays += light_.update(scene, rays, lights_, texels_, changes.movedObjects, options.seed,
                                 mostRays / 2);
   isLit_ = isLit_ && !light_.changed();
-  usesDepths_ = options_.visibility == TexelVisibility::stored || !scene.nominalSky.isBlack();
-  if (!isStale_ && usesDepths_) findDepths(scene, services, mostRays);
-  if (!isStale_ && (!usesDepths_ || depths_.isDone()) && !links_.isDone())
-    findLinks(scene, rays, 1 + mostRays / kRaysALinkedTexel);
+  if (!isStale_ && usesDepths()) findDepths(scene, services, mostRays);
+  if (!isStale_ && (!usesDepths() || depths_.isDone())) {
+    findSky(scene, rays, mostRays);
+    findLinks(scene, rays, mostRays - std::min(mostRays, counts_.rays));
+  }
   if (links_.isDone() && !isLit_) bounce();
   counts_.bytes = depths_.bytes() + links_.bytes() + light_.bytes();
 }
 
-// From disk or by rays; then the light of the sky through them.
+// From disk or by rays.
 void TexelRadiosity::findDepths(const RenderScene& scene, Services& services, uint64_t mostRays) {
   const DepthCache files(services.cacheFolder());
   if (!hasLookedOnDisk_ && !services.cacheFolder().empty()) {
@@ -172,7 +216,18 @@ void TexelRadiosity::findDepths(const RenderScene& scene, Services& services, ui
         depths_.goOn(scene, services.rays(), texels_, mostRays - std::min(mostRays, counts_.rays));
   if (!depths_.isDone()) return;
   if (depthKey_) files.save(*std::exchange(depthKey_, std::nullopt), depths_);
-  light_.updateSky(scene, lights_, texels_, depths_);
+}
+
+void TexelRadiosity::findSky(const RenderScene& scene, const RayCaster& rays, uint64_t most) {
+  const auto byRays = [&](uint32_t t, const vec3& direction) {
+    return !isBlocked(scene, rays, {texels_[t].spot.rayOrigin(), 0.0f, direction});
+  };
+  const auto byDepths = [&](uint32_t t, const vec3& direction) {
+    return depths_.isOpen(t, depths_.layout().pixelOf(direction));
+  };
+  const uint64_t tested = usesDepths() ? light_.updateSky(scene, lights_, texels_, byDepths, most)
+                                       : light_.updateSky(scene, lights_, texels_, byRays, most);
+  if (!usesDepths()) counts_.rays += tested;
   isLit_ = isLit_ && !light_.changed();
 }
 
@@ -192,12 +247,12 @@ void TexelRadiosity::bounce() {
 }
 
 bool TexelRadiosity::isDone() const {
-  return !isStale_ && isLit_ && links_.isDone() && (!usesDepths_ || depths_.isDone()) &&
-         unseen_.none();
+  return !isStale_ && moved_.empty() && isLit_ && links_.isDone() &&
+         (!usesDepths() || depths_.isDone()) && unseen_.none();
 }
 
 float TexelRadiosity::progress() const {
-  return usesDepths_ ? 0.5f * (depths_.progress() + links_.progress()) : links_.progress();
+  return usesDepths() ? 0.5f * (depths_.progress() + links_.progress()) : links_.progress();
 }
 
 }  // namespace lamplighter

@@ -2,7 +2,8 @@
 // stored on the surfaces or found by rays (paper 3, sections 3 and 4).
 //
 // After geometry changed, depths, then links are found over several frames; meanwhile texels keep
-// their light. When all is found, the light is that of a fresh start, bit for bit.
+// their light. After objects moved, came or went, only rays that meet them are traced again. When
+// all is found, the light is that of a fresh start, bit for bit.
 #pragma once
 
 #include <optional>
@@ -57,6 +58,7 @@ class TexelRadiosity {
   // Of the last update.
   struct Counts {
     uint64_t rays = 0;
+    uint64_t links = 0;  // segments tested for links
     float texel = 0.0f;  // side [m]
     size_t bytes = 0;
   };
@@ -74,9 +76,12 @@ class TexelRadiosity {
  private:
   bool takeGeometry(const RenderScene& scene, Services& services,
                     const RenderSceneChanges& changes);
+  bool takeSides(const RenderScene& scene);
   void takeAtlases(Services& services);
+  bool usesDepths() const { return options_.visibility == TexelVisibility::stored; }
   void findDepths(const RenderScene& scene, Services& services, uint64_t mostRays);
-  void findLinks(const RenderScene& scene, const RayCaster& rays, size_t most);
+  void findSky(const RenderScene& scene, const RayCaster& rays, uint64_t most);
+  void findLinks(const RenderScene& scene, const RayCaster& rays, uint64_t most);
   void findAlbedo(const RenderScene& scene);
   void bounce();
 
@@ -91,10 +96,12 @@ class TexelRadiosity {
   std::optional<ContentKey> depthKey_;  // of depths that are to be saved
   TexelLinks links_;
   TexelLight light_;
-  std::vector<Sides> sides_;      // of objects with a mesh
-  std::vector<vec3> albedo_;      // by texel
-  std::vector<vec3> irradiance_;  // by texel
-  bool usesDepths_ = true;
+  // When links were complete, and when texels were found last; and what moved since then.
+  TexelPlaces placesOfLinks_, places_;
+  std::set<uint32_t> movedSinceLinks_, moved_;
+  std::vector<Sides> sides_;                // of objects with a mesh
+  std::vector<vec3> albedo_;                // by texel
+  std::vector<vec3> irradiance_;            // by texel
   bool isStale_ = false;                    // surfaces moved since texels were found
   bool isStarted_ = false, isLit_ = false;  // isLit_: irradiance_ is that of now
   uint32_t version_ = 0, texelVersion_ = 0;

@@ -1,11 +1,13 @@
 #include "renderer/surface_depths/texel_set.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/random.h"
 #include "renderer/surface_depths/texel_order.h"
 #include "renderer/surface_light/gather_links.h"
 
@@ -187,6 +189,12 @@ SurfaceTexel turned(const RenderScene& scene, SurfaceTexel texel) {
 }
 
 }  // namespace
+
+uint32_t seedOf(const SurfaceTexel& texel) {
+  const vec3& p = texel.spot.position;
+  return hash4(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y),
+               std::bit_cast<uint32_t>(p.z), texel.place.triangle);
+}
 
 TexelSet::TexelSet(const RenderScene& scene, std::span<const ObjectAtlas> atlases, TexelOrder order)
     : parts_(2 * atlases.size()) {

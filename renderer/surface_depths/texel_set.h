@@ -29,6 +29,9 @@ struct SurfaceTexel {
   }
 };
 
+// For random numbers: the same wherever the texel is in a list.
+uint32_t seedOf(const SurfaceTexel& texel);
+
 // In which order the texels of an object are numbered. Inside of a chart: rows in turn to the right
 // and to the left, or along the border and inwards; then the chart nearest to where the last one
 // ended. greedy: always the nearest texel, whatever its chart (paper 3, section 3.2.3).

@@ -1,32 +1,58 @@
 #include "renderer/surface_depths/texel_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
 namespace lamplighter {
 namespace {
 
-// The axis that is most similar to the normal: texels of one node should face one way, so that the
-// mean of their normals tells how much light they send.
-int facingOf(const SurfaceTexel& texel) {
-  const vec3& n = texel.spot.geometricNormal;
-  const vec3 size = glm::abs(n);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  return 2 * axis + (n[axis] < 0.0f ? 1 : 0);
+// The smallest cells of the grid [m], and their number along an axis: ±4 km.
+constexpr float kCell = 1.0f / 256.0f;
+constexpr int kCellBits = 21;
+constexpr float kCells = 1 << kCellBits;
+
+// The bits of a number of 21 bits, each followed by two zeros.
+uint64_t spread(uint64_t bits) {
+  bits = (bits | bits << 32) & 0x1f00000000ffffu;
+  bits = (bits | bits << 16) & 0x1f0000ff0000ffu;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00fu;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3u;
+  return (bits | bits << 2) & 0x1249249249249249u;
 }
 
 }  // namespace
 
-TexelTree::TexelTree(const TexelSet& texels) : order_(texels.size()) {
-  std::iota(order_.begin(), order_.end(), 0u);
-  std::ranges::stable_sort(order_, {}, [&](uint32_t t) { return facingOf(texels[t]); });
-  nodes_.reserve(2 * texels.size());
-  if (texels.size() > 0) build(texels, 0, static_cast<uint32_t>(texels.size()));
+TexelTree::Key TexelTree::keyOf(const SurfaceTexel& texel) {
+  const vec3& n = texel.spot.geometricNormal;
+  const vec3 size = glm::abs(n);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  Key key;
+  key.facing = static_cast<uint32_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
+  for (int k = 0; k < 3; ++k) {
+    const float cell = std::floor(texel.spot.position[k] / kCell) + 0.5f * kCells;
+    key.cell |= spread(static_cast<uint64_t>(std::clamp(cell, 0.0f, kCells - 1.0f))) << (2 - k);
+  }
+  return key;
 }
 
-// Returns the number of the node of these texels of order_.
-uint32_t TexelTree::build(const TexelSet& texels, uint32_t first, uint32_t count) {
+TexelTree::TexelTree(const TexelSet& texels) : order_(texels.size()) {
+  std::vector<std::pair<Key, uint32_t>> sorted(texels.size());
+  for (uint32_t t = 0; t < texels.size(); ++t) sorted[t] = {keyOf(texels[t]), t};
+  std::ranges::sort(sorted);
+  std::vector<Key> keys;
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    keys.push_back(sorted[i].first);
+    order_[i] = sorted[i].second;
+  }
+  nodes_.reserve(2 * texels.size());
+  if (texels.size() > 0) build(texels, keys, 0, static_cast<uint32_t>(texels.size()));
+}
+
+// Returns the number of the node of these texels of order_. `keys`: in that order.
+uint32_t TexelTree::build(const TexelSet& texels, const std::vector<Key>& keys, uint32_t first,
+                          uint32_t count) {
   const auto number = static_cast<uint32_t>(nodes_.size());
   nodes_.emplace_back();
   Node node;
@@ -51,29 +77,22 @@ uint32_t TexelTree::build(const TexelSet& texels, uint32_t first, uint32_t count
                  length > 0.0f ? glm::dot(node.normal, t.spot.geometricNormal) / length : -1.0f);
   }
   if (count > 1) {
-    const auto begin = order_.begin() + first;
+    const Key &low = keys[first], &high = keys[first + count - 1];
+    const auto begin = keys.begin() + first;
     uint32_t half = count / 2;
-    const int facing = facingOf(texels[order_[first + half]]);
-    if (facingOf(texels[order_[first]]) != facingOf(texels[order_[first + count - 1]])) {
-      // Where another direction begins, next to the middle.
-      const auto isBefore = [&](uint32_t t, int f) { return facingOf(texels[t]) < f; };
-      half =
-          static_cast<uint32_t>(std::lower_bound(begin, begin + count, facing, isBefore) - begin);
-      if (half == 0)
-        half = static_cast<uint32_t>(std::lower_bound(begin, begin + count, facing + 1, isBefore) -
-                                     begin);
-    } else {
-      const vec3 extent = bounds.extent();
-      const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                       : extent.y >= extent.z                       ? 1
-                                                                    : 2;
-      std::sort(begin, begin + count, [&](uint32_t a, uint32_t b) {
-        return std::pair(texels[a].spot.position[axis], a) <
-               std::pair(texels[b].spot.position[axis], b);
-      });
+    if (low != high) {
+      // Where the highest bit that differs becomes 1.
+      Key plane = high;
+      if (low.facing != high.facing) {
+        const uint32_t bit = std::bit_floor(low.facing ^ high.facing);
+        plane = {high.facing & ~(bit - 1), 0};
+      } else {
+        plane.cell &= ~(std::bit_floor(low.cell ^ high.cell) - 1);
+      }
+      half = static_cast<uint32_t>(std::lower_bound(begin, begin + count, plane) - begin);
     }
-    build(texels, first, half);
-    build(texels, first + half, count - half);
+    build(texels, keys, first, half);
+    build(texels, keys, first + half, count - half);
   }
   node.skip = static_cast<uint32_t>(nodes_.size());
   nodes_[number] = node;

@@ -1,9 +1,13 @@
-// A binary tree over the texels of all surfaces, for senders of light: divided by the way they
-// face, then by median cuts (paper 3, section 4.2). Nodes are in depth-first order: the first child
-// of a node is the next one, and `skip` is the next one that is not below it.
+// A binary tree over the texels of all surfaces, for senders of light (paper 3, section 4.2).
+// Divided by the way texels face, then at planes of a grid that halves its cells (Lauterbach et al.
+// 2009, "Fast BVH construction on GPUs"), not by median cuts as in the paper: planes stay where
+// they are when an object moves, so nodes without one of its texels stay the same.
+//
+// Nodes are in depth-first order: the first child of a node is the next one, and `skip` is the next
+// one that is not below it.
 #pragma once
 
-#include <array>
+#include <compare>
 #include <vector>
 
 #include "renderer/surface_depths/texel_set.h"
@@ -33,11 +37,23 @@ class TexelTree {
   const std::vector<uint32_t>& order() const { return order_; }
   uint32_t texelOf(const Node& leaf) const { return order_[leaf.firstTexel]; }
 
+  // The k-th of `places` texels, spread over those of a node.
+  uint32_t testedTexel(const Node& node, uint32_t k, uint32_t places) const {
+    return order_[node.firstTexel + (2 * k + 1) * node.texels / (2 * places)];
+  }
+
   // Means by area of values of texels, by node.
   void pull(const std::vector<vec3>& byTexel, std::vector<vec3>& byNode) const;
 
  private:
-  uint32_t build(const TexelSet& texels, uint32_t first, uint32_t count);
+  struct Key {
+    uint32_t facing = 0;  // the axis to which a texel faces most, and its sign
+    uint64_t cell = 0;    // bits of the cell along x, y and z in turn
+    auto operator<=>(const Key&) const = default;
+  };
+  static Key keyOf(const SurfaceTexel& texel);
+  uint32_t build(const TexelSet& texels, const std::vector<Key>& keys, uint32_t first,
+                 uint32_t count);
 
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;

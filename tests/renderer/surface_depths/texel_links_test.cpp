@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/surface_depths/link_bound.h"
 #include "tests/renderer/surface_depths/lit_texels.h"
 
 namespace lamplighter {
