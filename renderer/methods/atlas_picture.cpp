@@ -12,18 +12,31 @@
 namespace lamplighter {
 
 AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelRadiosity& light,
-                                            const SurfacePictureOptions& options) const {
+                                            const SurfacePictureOptions& options,
+                                            const Sample& before,
+                                            std::span<const uint32_t> movedObjects) const {
   const GBufferView gbuffer = in.backend.hostGBuffer();
   Sample sample(static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height));
   tbb::parallel_for(0, view_.height, [&](int y) {
     for (int x = 0; x < view_.width; ++x) {
       if (!gbuffer.isHit(x, y)) continue;
       const GBufferPoint p = gbuffer.at(x, y);
+      const size_t i =
+          static_cast<size_t>(y) * static_cast<size_t>(view_.width) + static_cast<size_t>(x);
+      Pixel& out = sample[i];
+      const bool isSame = i < before.size() && before[i].object == p.object &&
+                          before[i].triangle == p.triangle && before[i].position == p.position &&
+                          std::ranges::find(movedObjects, p.object) == movedObjects.end();
+      if (isSame) {
+        out = before[i];
+        continue;
+      }
+      out.position = p.position;
+      out.object = p.object;
+      out.triangle = p.triangle;
       const ObjectAtlas& own = light.atlases()[p.object];
       const SeenTriangle seen(in.scene, p);
       if (!own.atlas || !seen.isSound || own.atlas->chartOfTriangle[p.triangle] == kNone) continue;
-      Pixel& out = sample[static_cast<size_t>(y) * static_cast<size_t>(view_.width) +
-                          static_cast<size_t>(x)];
       out.blend =
           light.texels().blendAt(p.object, seen.isBack, own.texelsOf(p.triangle, p.position));
       const PixelReflectance r = reflectanceOf(in.scene, p, seen.weights, view_.eye, options);
@@ -62,9 +75,14 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     shown_ = nullptr;
     return picture;
   }
-  if (changes.surfaces() || changes.objects || options != options_ ||
-      light.texelVersion() != texelVersion_)
+  Sample before;
+  if (changes.rebuilt || changes.materials || changes.objects || options != options_ ||
+      light.texelVersion() != texelVersion_) {
     samples_.clear();
+  } else if (!changes.movedObjects.empty()) {
+    if (!samples_.empty()) before = std::move(samples_.front());
+    samples_.clear();
+  }
   texelVersion_ = light.texelVersion();
   options_ = options;
   if (antialias > 1 && antialias != antialias_) {
@@ -74,12 +92,12 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
   if (samples_.empty()) {
     if (!gbufferIsCurrent) in.backend.renderGBuffer(view_, vec2(0.0f));
     gbufferIsCurrent = true;
-    samples_.push_back(sampleOf(in, light, options));
+    samples_.push_back(sampleOf(in, light, options, before, changes.movedObjects));
     shown_ = nullptr;
   } else if (light.isDone() && antialias > 1 && static_cast<int>(samples_.size()) <= antialias) {
     in.backend.renderGBuffer(view_, pixelJitter(static_cast<int>(samples_.size()) - 1, antialias));
     gbufferIsCurrent = false;
-    samples_.push_back(sampleOf(in, light, options));
+    samples_.push_back(sampleOf(in, light, options, {}, {}));
   }
   // The shifted ones when there are all.
   const bool isSmooth =

@@ -37,12 +37,17 @@ class AtlasPicture {
 
  private:
   struct Pixel {
+    vec3 position{0.0f};  // that the pixel shows, world space, and its triangle
+    uint32_t object = TexelSet::kNone, triangle = 0;
     TexelBlend blend;
     vec3 reflectance{0.0f};  // share of even light, times π
   };
   using Sample = std::vector<Pixel>;
+  // `before`: a sample of which pixels that show the same place of an object that did not move
+  // stay; or empty.
   Sample sampleOf(const FrameInputs& in, const TexelRadiosity& light,
-                  const SurfacePictureOptions& options) const;
+                  const SurfacePictureOptions& options, const Sample& before,
+                  std::span<const uint32_t> movedObjects) const;
 
   View view_;
   SurfacePictureOptions options_;

@@ -13,7 +13,7 @@ namespace lamplighter {
 namespace {
 
 // Rays of a texel to a light that is not a point.
-constexpr size_t kRays = 16;
+constexpr size_t kRays = 4;
 
 }  // namespace
 
