@@ -15,7 +15,7 @@ namespace lamplighter {
 struct TexelLink {
   uint32_t node : 28 = 0;
   uint32_t seen : 4 = 0;  // a bit for each tested texel of the node: whether it is seen
-  float weight = 0.0f;    // share of the light that the texel receives: irradiance over radiosity
+  float weight = 0.0f;    // form factor times the share that is seen
 };
 
 // Links of all texels: those of texel t are [starts[t], starts[t + 1]), by ascending nodes.
@@ -42,21 +42,28 @@ class FormerLinks {
   // Compares with the present tree. See TexelMoves.
   void compareWith(const TexelTree& tree, TexelMoves moves);
 
-  // The nodes of one texel.
+  // What is known of one texel. To be asked for nodes of the present tree, in ascending order.
   class OfTexel {
    public:
-    // Which tested texels of a node of the present tree were seen. None if that is not known. To be
-    // called with ascending nodes.
-    std::optional<uint32_t> seen(uint32_t node);
+    enum class Known : uint8_t {
+      nothing,
+      apart,     // links end at the same nodes; moved objects may be in between
+      unchanged  // nothing moved between the texel and the node
+    };
+    Known at(uint32_t node, const TexelTree& tree, const SurfaceSpot& spot);
+    // Adds the links of an unchanged node and of those below.
+    void append(uint32_t node, std::vector<TexelLink>& out) const;
+    // Which tested texels were seen, of a node at which a link may end.
+    uint32_t seen(uint32_t node) const;
 
    private:
     friend class FormerLinks;
-    struct End {
-      uint32_t node = 0, seen = 0;
-    };
+    std::span<const TexelLink> linksOf(uint32_t former, uint32_t end) const;
+
     const FormerLinks* all_ = nullptr;  // null: nothing is known
-    std::vector<End> ends_;             // nodes of the former tree at which links could end
-    size_t next_ = 0;
+    std::span<const TexelLink> links_;
+    std::vector<uint8_t> isDivided_;              // by node that is gone
+    uint32_t knownUntil_ = 0, unknownUntil_ = 0;  // nodes before these are below an asked one
   };
   OfTexel of(uint32_t texel, const SurfaceSpot& spot) const;
   const TexelMoves& moves() const { return moves_; }
@@ -65,7 +72,10 @@ class FormerLinks {
   TexelTree tree_;
   LinkTable table_;
   float error_ = 0.0f;
-  std::vector<uint32_t> formerNode_;  // by present node; none where a texel of it changed
+  std::vector<uint32_t> formerNode_;  // by present node; kNew where a texel of it changed
+  // Former nodes without a present one, and above each former node: the place in `gone_`; kNew:
+  // none (a node whose parent is not gone is not asked for).
+  std::vector<uint32_t> gone_, goneAbove_;
   TexelMoves moves_;
 };
 

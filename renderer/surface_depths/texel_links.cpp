@@ -53,48 +53,63 @@ void TexelLinks::restart(const TexelTree& before, const TexelSet& texels, const 
   if (!former_.empty()) former_.compareWith(tree, std::move(moves));
 }
 
+using Known = FormerLinks::OfTexel::Known;
+
 void TexelLinks::goOn(const TexelSet& texels, const TexelTree& tree, const Visibility& sees,
                       size_t most) {
   const size_t count = std::min(most, count_ - next_);
   std::vector<std::vector<TexelLink>> found(count);
-  std::atomic<uint64_t> tested = 0, known = 0;
+  std::atomic<uint64_t> tested = 0, ofKnown = 0;
   tbb::parallel_for(size_t{0}, count, [&](size_t i) {
     const auto texel = static_cast<uint32_t>(next_ + i);
     const SurfaceSpot& spot = texels[texel].spot;
     FormerLinks::OfTexel former = former_.of(texel, spot);
     uint64_t asked = 0, kept = 0;
-    forEachEnd(spot, tree, error_, [&](uint32_t n) {
+    for (uint32_t n = 0; n < tree.size();) {
       const TexelTree::Node& node = tree[n];
-      if (node.isLeaf() && tree.texelOf(node) == texel) return;
+      const Known known = former.at(n, tree, spot);
+      if (known == Known::unchanged) {
+        former.append(n, found[i]);
+        n = node.skip;
+        continue;
+      }
+      const float largest = largestFormFactor(spot, node);
+      if (!node.isLeaf() && largest > error_) {
+        ++n;
+        continue;
+      }
+      const uint32_t number = n;
+      n = node.skip;
+      if (largest <= 0.0f || (node.isLeaf() && tree.texelOf(node) == texel)) continue;
       const float factor = formFactorOf(spot, texels, tree, node);
-      if (factor <= 0.0f) return;
-      const std::optional<uint32_t> before = former.seen(n);
+      if (factor <= 0.0f) continue;
+      const uint32_t before = known == Known::apart ? former.seen(number) : 0;
       const uint32_t places = std::min(node.texels, kTested);
       uint32_t seen = 0;
       for (uint32_t k = 0; k < places; ++k) {
         const vec3& point = texels[tree.testedTexel(node, k, places)].spot.position;
         const vec3 from = spot.rayOrigin();
-        const bool isKept = before && !former_.moves().meets({from, 0.0f, point - from, 1.0f});
-        const bool isSeen = isKept ? (*before >> k & 1u) != 0 : sees(texel, point);
+        const bool isKept =
+            known == Known::apart && !former_.moves().meets({from, 0.0f, point - from, 1.0f});
+        const bool isSeen = isKept ? (before >> k & 1u) != 0 : sees(texel, point);
         seen |= isSeen ? 1u << k : 0u;
         ++(isKept ? kept : asked);
       }
       if (seen != 0)
         found[i].push_back(
-            {n, seen,
+            {number, seen,
              factor * static_cast<float>(std::popcount(seen)) / static_cast<float>(places)});
-    });
+    }
     tested += asked;
-    known += kept;
+    ofKnown += kept;
   });
   tested_ = tested;
-  known_ = known;
+  known_ = ofKnown;
   for (size_t i = 0; i < count; ++i) {
     // More than all of the hemisphere is seen where surfaces coincide.
     float sum = 0.0f;
     for (const TexelLink& link : found[i]) sum += link.weight;
-    if (sum > 1.0f)
-      for (TexelLink& link : found[i]) link.weight /= sum;
+    scales_.push_back(sum > 1.0f ? 1.0f / sum : 1.0f);
     table_.links.insert(table_.links.end(), found[i].begin(), found[i].end());
     table_.starts.push_back(table_.links.size());
   }
@@ -107,7 +122,7 @@ void TexelLinks::gather(const std::vector<vec3>& radiosity, std::vector<vec3>& i
   tbb::parallel_for(size_t{0}, next_, [&](size_t t) {
     vec3 sum(0.0f);
     for (const TexelLink& link : of(t)) sum += link.weight * radiosity[link.node];
-    irradiance[t] = sum;
+    irradiance[t] = scales_[t] * sum;
   });
 }
 

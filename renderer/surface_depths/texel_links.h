@@ -26,7 +26,7 @@ class TexelLinks {
   // apart, what was seen stays. `before`, `texels`: the trees and texels of then and now.
   void restart(const TexelTree& before, const TexelSet& texels, const TexelTree& tree,
                TexelMoves moves);
-  // Finds the links of some texels more. The sum of their weights is at most 1. The result does not
+  // Finds the links of some texels more. The sum of their shares is at most 1. The result does not
   // depend on how many, or on what was seen before.
   void goOn(const TexelSet& texels, const TexelTree& tree, const Visibility& sees, size_t most);
   bool isDone() const { return next_ == count_; }
@@ -34,8 +34,10 @@ class TexelLinks {
     return isDone() ? 1.0f : static_cast<float>(next_) / static_cast<float>(count_);
   }
 
-  // Of a texel whose links are found.
+  // Of a texel whose links are found. The share of light that it receives along a link, irradiance
+  // over radiosity, is the weight times scaleOf().
   std::span<const TexelLink> of(size_t texel) const { return table_.of(texel); }
+  float scaleOf(size_t texel) const { return scales_[texel]; }
   // Irradiance of each texel by the radiosity of the nodes [W/m²].
   void gather(const std::vector<vec3>& radiosity, std::vector<vec3>& irradiance) const;
 
@@ -49,6 +51,7 @@ class TexelLinks {
   float error_ = 0.0f;
   size_t count_ = 0, next_ = 0;  // texels, and the first one without links
   LinkTable table_;              // of the texels before next_
+  std::vector<float> scales_;    // of those texels
   FormerLinks former_;           // while links are found
   uint64_t tested_ = 0, known_ = 0;
 };

@@ -18,7 +18,7 @@ constexpr float kSideStep = 1.1f;
 // Texels whose links are found at a time, the work of one in rays besides its tests, and tests of
 // known answer that take as long as a ray.
 constexpr size_t kLinkedAtATime = 64;
-constexpr uint64_t kRaysALinkedTexel = 128, kKnownARay = 8;
+constexpr uint64_t kRaysALinkedTexel = 64, kKnownARay = 8;
 
 double areaOf(const RenderScene& scene) {
   double area = 0.0;

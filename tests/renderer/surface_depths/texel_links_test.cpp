@@ -75,7 +75,7 @@ TEST(TexelLinks, FormFactorsSumToOneInAClosedRoom) {
     double mean = 0.0, most = 0.0;
     for (size_t t = 0; t < room.texels.size(); ++t) {
       double sum = 0.0;
-      for (const TexelLink& link : links.of(t)) sum += static_cast<double>(link.weight);
+      for (const TexelLink& link : links.of(t)) sum += static_cast<double>(links.scaleOf(t) * link.weight);
       mean += sum / static_cast<double>(room.texels.size());
       most = std::max(most, std::abs(sum - 1.0));
     }
