@@ -153,7 +153,10 @@ void TexelRadiosity::takeAtlases(Services& services) {
 void TexelRadiosity::findAlbedo(const RenderScene& scene) {
   albedo_.resize(texels_.size());
   tbb::parallel_for(size_t{0}, texels_.size(), [&](size_t t) {
-    albedo_[t] = albedoAt(scene, texels_[t].object, texels_[t].place);
+    const SurfaceTexel& texel = texels_[t];
+    albedo_[t] = vec3(0.0f);
+    for (const SurfacePlace& place : texel.spread)
+      albedo_[t] += albedoAt(scene, texel.object, place) / static_cast<float>(texel.spread.size());
   });
 }
 

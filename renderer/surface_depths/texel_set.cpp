@@ -121,6 +121,11 @@ SurfaceTexel texelOf(const RenderScene& scene, uint32_t object, const ObjectAtla
   texel.place = std::ranges::min_element(places, {}, [&](const Covered& c) {
                   return glm::distance(c.at, mean);
                 })->place;
+  // One of each row of places, where there are all, in different columns.
+  constexpr std::array<size_t, 4> kColumns{1, 3, 0, 2};
+  for (size_t k = 0; k < texel.spread.size(); ++k)
+    texel.spread[k] =
+        places[(kPlaces * k + kColumns[k]) * places.size() / (kPlaces * kPlaces)].place;
   uint32_t tried = texel.place.triangle + 1;
   for (const Covered& c : places) {
     if (c.place.triangle == tried) continue;
@@ -182,7 +187,9 @@ std::vector<SurfaceTexel> texelsOf(const RenderScene& scene, uint32_t object,
 
 // The same texel on the back of the surface.
 SurfaceTexel turned(const RenderScene& scene, SurfaceTexel texel) {
-  texel.place.triangle += scene.objects[texel.object].triangleCount();
+  const uint32_t behind = scene.objects[texel.object].triangleCount();
+  texel.place.triangle += behind;
+  for (SurfacePlace& place : texel.spread) place.triangle += behind;
   texel.spot = spotAt(scene, texel.object, texel.place);
   texel.half[0] = -texel.half[0];
   return texel;

@@ -14,9 +14,11 @@ namespace lamplighter {
 // World space.
 struct SurfaceTexel {
   uint32_t object = 0;
-  uint32_t chart = 0;        // of the object
-  glm::ivec2 at{0};          // in the rectangle of the object
-  SurfacePlace place;        // of the position
+  uint32_t chart = 0;  // of the object
+  glm::ivec2 at{0};    // in the rectangle of the object
+  SurfacePlace place;  // of the position
+  // Places that are spread over its area, for the mean of what varies on the surface.
+  std::array<SurfacePlace, 4> spread;
   SurfaceSpot spot;          // where light arrives
   std::array<vec3, 2> half;  // half the sides of a square in its plane, with its area
   float area = 0.0f;         // [m²]
