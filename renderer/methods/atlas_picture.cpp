@@ -16,6 +16,7 @@ AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelRa
                                             const Sample& before,
                                             std::span<const uint32_t> movedObjects) const {
   const GBufferView gbuffer = in.backend.hostGBuffer();
+  const RayCaster& rays = in.services.rays();
   Sample sample(static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height));
   tbb::parallel_for(0, view_.height, [&](int y) {
     for (int x = 0; x < view_.width; ++x) {
@@ -37,8 +38,8 @@ AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelRa
       const ObjectAtlas& own = light.atlases()[p.object];
       const SeenTriangle seen(in.scene, p);
       if (!own.atlas || !seen.isSound || own.atlas->chartOfTriangle[p.triangle] == kNone) continue;
-      out.blend =
-          light.texels().blendAt(p.object, seen.isBack, own.texelsOf(p.triangle, p.position));
+      out.blend = light.blendAt(in.scene, rays, p.object, seen.isBack, p.position,
+                                own.texelsOf(p.triangle, p.position));
       const PixelReflectance r = reflectanceOf(in.scene, p, seen.weights, view_.eye, options);
       out.reflectance = r.diffuse + r.lobe;
     }

@@ -34,15 +34,6 @@ double areaOf(const RenderScene& scene) {
   return area;
 }
 
-// By anything but area lights, which do not block bounced light, so that they can move freely.
-bool isBlocked(const RenderScene& scene, const RayCaster& rays, Ray ray) {
-  for (Hit hit = rays.intersect(ray); hit; hit = rays.intersect(ray)) {
-    if (!scene.objects[hit.object].isAreaLight) return true;
-    ray.tNear = hit.t + rayEpsilon(ray.origin + hit.t * ray.direction) / glm::length(ray.direction);
-  }
-  return false;
-}
-
 // By object.
 std::vector<TexelRadiosity::Sides> sidesOf(const RenderScene& scene) {
   std::vector<TexelRadiosity::Sides> out;
@@ -107,6 +98,7 @@ bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
   takeAtlases(services);
   texels_ = TexelSet(scene, atlases_, options_.order);
   counts_.rays += texels_.findBuried(scene, services.rays());
+  counts_.rays += sight_.find(scene, services.rays(), texels_);
   const TexelTree before = std::exchange(tree_, TexelTree(texels_));
   const TexelMoves moves = places_.movesTo(scene, texels_, moved_);
   if (changes.rebuilt) irradiance_.clear();
@@ -164,7 +156,7 @@ void TexelRadiosity::findLinks(const RenderScene& scene, const RayCaster& rays, 
   const Visibility byRays = [&](uint32_t t, const vec3& point) {
     const vec3 from = texels_[t].spot.rayOrigin(), d = point - from;
     if (glm::dot(d, texels_[t].spot.geometricNormal) <= 0.0f) return false;
-    return !isBlocked(scene, rays, {from, 0.0f, d, 1.0f - 1e-3f});
+    return !blocksBouncedLight(scene, rays, {from, 0.0f, d, 1.0f - 1e-3f});
   };
   const Visibility byDepths = [&](uint32_t t, const vec3& point) {
     return depths_.sees(texels_[t], t, point);
@@ -223,7 +215,7 @@ void TexelRadiosity::findDepths(const RenderScene& scene, Services& services, ui
 
 void TexelRadiosity::findSky(const RenderScene& scene, const RayCaster& rays, uint64_t most) {
   const auto byRays = [&](uint32_t t, const vec3& direction) {
-    return !isBlocked(scene, rays, {texels_[t].spot.rayOrigin(), 0.0f, direction});
+    return !blocksBouncedLight(scene, rays, {texels_[t].spot.rayOrigin(), 0.0f, direction});
   };
   const auto byDepths = [&](uint32_t t, const vec3& direction) {
     return depths_.isOpen(t, depths_.layout().pixelOf(direction));

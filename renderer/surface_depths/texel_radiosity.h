@@ -13,6 +13,7 @@
 #include "renderer/surface_depths/depth_cache.h"
 #include "renderer/surface_depths/texel_light.h"
 #include "renderer/surface_depths/texel_links.h"
+#include "renderer/surface_depths/texel_sight.h"
 
 namespace lamplighter {
 
@@ -50,6 +51,13 @@ class TexelRadiosity {
   // Of bounced light, by texel [W/m²]; empty before it is found for the first time.
   const std::vector<vec3>& irradiance() const { return irradiance_; }
   const TexelSet& texels() const { return texels_; }
+  // Of a point of a side of an object, given in world space and in texels of its rectangle.
+  TexelBlend blendAt(const RenderScene& scene, const RayCaster& rays, uint32_t object, bool isBack,
+                     const vec3& position, const vec2& texels) const {
+    TexelBlend blend = texels_.blendAt(object, isBack, texels);
+    sight_.keepVisible(scene, rays, texels_, position, blend);
+    return blend;
+  }
   // By object.
   const std::vector<ObjectAtlas>& atlases() const { return atlases_; }
   const SurfaceDepths& depths() const { return depths_; }
@@ -90,6 +98,7 @@ class TexelRadiosity {
   LightSet lights_;
   std::vector<ObjectAtlas> atlases_;
   TexelSet texels_;
+  TexelSight sight_;
   TexelTree tree_;
   SurfaceDepths depths_;
   bool hasLookedOnDisk_ = false;        // for these depths

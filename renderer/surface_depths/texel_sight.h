@@ -1,0 +1,29 @@
+// Which texels a point is between: surfaces that stand on a chart, such as a wall on a floor, keep
+// the light of one side from the other.
+#pragma once
+
+#include <vector>
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/surface_depths/texel_set.h"
+
+namespace lamplighter {
+
+// By anything but area lights, which do not block bounced light, so that they can move freely.
+bool blocksBouncedLight(const RenderScene& scene, const RayCaster& rays, Ray ray);
+
+class TexelSight {
+ public:
+  // Traces up to four rays a texel, to its neighbours in the rectangle of its object. Returns their
+  // number.
+  uint64_t find(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels);
+  // Leaves out texels that the point (world space) does not see, unless it sees none of them.
+  // Traces rays only where some neighbours do not see each other.
+  void keepVisible(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,
+                   const vec3& position, TexelBlend& blend) const;
+
+ private:
+  std::vector<uint8_t> isSplit_;  // by texel: some neighbour is buried, or it does not see it
+};
+
+}  // namespace lamplighter
