@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -57,6 +58,8 @@ struct GiStats {
   uint64_t raysTraced = 0;              // in this frame, by the method
   std::vector<StageTime> stageSeconds;  // as MethodInfo::stages; empty: not measured
   std::vector<Statistic> declared;      // in the order of MethodInfo::statistics
+  // What the method chose for parameters that leave it to the method, and why, by their name.
+  std::map<std::string, std::string> chosen;
 
   double secondsOf(const StageSpec& stage) const;  // 0 if it was not measured
 

@@ -196,4 +196,15 @@ Surface surfaceAt(const RenderScene& s, uint32_t object, uint32_t triangle, floa
   return out;
 }
 
+double areaOf(const RenderScene& scene, const RenderObject& object) {
+  double area = 0.0;
+  for (uint32_t i = object.firstIndex; i < object.firstIndex + object.indexCount; i += 3) {
+    const vec3& a = scene.positions[scene.indices[i]];
+    area += 0.5 *
+            static_cast<double>(glm::length(glm::cross(scene.positions[scene.indices[i + 1]] - a,
+                                                       scene.positions[scene.indices[i + 2]] - a)));
+  }
+  return area;
+}
+
 }  // namespace lamplighter

@@ -28,6 +28,9 @@ bool mayBeGlossy(const Material& material);
 // indirect light is Lambertian.
 Gloss glossAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 
+// Of all triangles [m²].
+double areaOf(const RenderScene& scene, const RenderObject& object);
+
 // Factor of the material's emission at the point of the front face: by the emissive texture; 0 in a
 // hole of the alpha mask.
 vec3 emissionShareAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u,

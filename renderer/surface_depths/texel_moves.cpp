@@ -7,14 +7,14 @@ Bounds boundsOf(const RenderObject& object) { return object.isEmpty() ? Bounds{}
 
 }  // namespace
 
-TexelPlaces::TexelPlaces(const RenderScene& scene, const TexelSet& texels) {
+PlacedTexels::PlacedTexels(const RenderScene& scene, const TexelSet& texels) {
   for (const TexelSet::Part& part : texels.parts()) parts_.push_back({part.first, part.count});
   for (size_t t = 0; t < texels.size(); ++t) isBuried_.push_back(texels.isBuried(t) ? 1 : 0);
   for (const RenderObject& o : scene.objects) bounds_.push_back(boundsOf(o));
 }
 
-TexelMoves TexelPlaces::movesTo(const RenderScene& scene, const TexelSet& texels,
-                                const std::set<uint32_t>& moved) const {
+TexelMoves PlacedTexels::movesTo(const RenderScene& scene, const TexelSet& texels,
+                                 const std::set<uint32_t>& moved) const {
   TexelMoves out;
   out.sameTexel.assign(texels.size(), TexelMoves::kNew);
   for (size_t side = 0; side < std::min(parts_.size(), texels.parts().size()); ++side) {

@@ -39,10 +39,10 @@ struct TexelMoves {
 };
 
 // Where objects and texels were at some time.
-class TexelPlaces {
+class PlacedTexels {
  public:
-  TexelPlaces() = default;
-  TexelPlaces(const RenderScene& scene, const TexelSet& texels);
+  PlacedTexels() = default;
+  PlacedTexels(const RenderScene& scene, const TexelSet& texels);
   // `moved`: the objects that moved, came or went since then.
   TexelMoves movesTo(const RenderScene& scene, const TexelSet& texels,
                      const std::set<uint32_t>& moved) const;

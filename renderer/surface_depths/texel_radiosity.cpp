@@ -6,6 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/scene/surface.h"
+
 namespace lamplighter {
 namespace {
 
@@ -22,15 +24,8 @@ constexpr uint64_t kRaysALinkedTexel = 64, kKnownARay = 8;
 
 double areaOf(const RenderScene& scene) {
   double area = 0.0;
-  for (const RenderObject& o : scene.objects) {
-    if (o.isAreaLight) continue;
-    for (uint32_t i = o.firstIndex; i < o.firstIndex + o.indexCount; i += 3) {
-      const vec3& a = scene.positions[scene.indices[i]];
-      area += 0.5 * static_cast<double>(
-                        glm::length(glm::cross(scene.positions[scene.indices[i + 1]] - a,
-                                               scene.positions[scene.indices[i + 2]] - a)));
-    }
-  }
+  for (const RenderObject& o : scene.objects)
+    if (!o.isAreaLight) area += areaOf(scene, o);
   return area;
 }
 
@@ -98,7 +93,7 @@ bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
   takeAtlases(services);
   texels_ = TexelSet(scene, atlases_, options_.order);
   counts_.rays += texels_.findBuried(scene, services.rays());
-  counts_.rays += sight_.find(scene, services.rays(), texels_);
+  counts_.rays += neighbours_.find(scene, services.rays(), texels_);
   const TexelTree before = std::exchange(tree_, TexelTree(texels_));
   const TexelMoves moves = places_.movesTo(scene, texels_, moved_);
   if (changes.rebuilt) irradiance_.clear();
@@ -119,7 +114,7 @@ bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
                    placesOfLinks_.movesTo(scene, texels_, movedSinceLinks_));
     light_.outdate(moves, true);
   }
-  places_ = TexelPlaces(scene, texels_);
+  places_ = PlacedTexels(scene, texels_);
   moved_.clear();
   findAlbedo(scene);
   return true;

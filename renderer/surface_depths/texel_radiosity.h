@@ -13,7 +13,7 @@
 #include "renderer/surface_depths/depth_cache.h"
 #include "renderer/surface_depths/texel_light.h"
 #include "renderer/surface_depths/texel_links.h"
-#include "renderer/surface_depths/texel_sight.h"
+#include "renderer/surface_depths/texel_neighbours.h"
 
 namespace lamplighter {
 
@@ -55,7 +55,7 @@ class TexelRadiosity {
   TexelBlend blendAt(const RenderScene& scene, const RayCaster& rays, uint32_t object, bool isBack,
                      const vec3& position, const vec2& texels) const {
     TexelBlend blend = texels_.blendAt(object, isBack, texels);
-    sight_.keepVisible(scene, rays, texels_, position, blend);
+    neighbours_.keepVisible(scene, rays, texels_, position, blend);
     return blend;
   }
   // By object.
@@ -98,7 +98,7 @@ class TexelRadiosity {
   LightSet lights_;
   std::vector<ObjectAtlas> atlases_;
   TexelSet texels_;
-  TexelSight sight_;
+  TexelNeighbours neighbours_;
   TexelTree tree_;
   SurfaceDepths depths_;
   bool hasLookedOnDisk_ = false;        // for these depths
@@ -106,7 +106,7 @@ class TexelRadiosity {
   TexelLinks links_;
   TexelLight light_;
   // When links were complete, and when texels were found last; and what moved since then.
-  TexelPlaces placesOfLinks_, places_;
+  PlacedTexels placesOfLinks_, places_;
   std::set<uint32_t> movedSinceLinks_, moved_;
   std::vector<Sides> sides_;                // of objects with a mesh
   std::vector<vec3> albedo_;                // by texel

@@ -76,6 +76,16 @@ void costLine(const PanelContext& ui, const MethodInfo& method, const ParameterS
   tooltip(ui, "Mean of the frames of the last seconds that drew upon this budget. " + cost->buys);
 }
 
+// Below a parameter that leaves the choice to the method: what it chose, and why.
+void chosenLine(const PanelContext& ui, const ParameterSpec& spec) {
+  const auto& chosen = ui.session.output().stats.chosen;
+  const auto text = chosen.find(spec.name);
+  if (text == chosen.end()) return;
+  rightAligned(text->second, theme::kTextDim);
+  ui.name(spec.name + "/chosen");
+  tooltip(ui, "What the method chose for this scene, and why.");
+}
+
 void parameterRow(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec) {
   labelledRow(ui, spec.label.c_str(), spec.help.c_str());
   const auto value = parameterField(ui, spec, ui.session.document().render.values, true);
@@ -88,6 +98,7 @@ void parameterRow(const PanelContext& ui, const MethodInfo& method, const Parame
     render.values.reset(spec.name);
     ui.session.setRender(render);
   }
+  chosenLine(ui, spec);
   costLine(ui, method, spec);
 }
 

@@ -55,11 +55,12 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   uploadsBefore_ = kernels_->lightCounts().bytesUploaded;
   StageTimer stages(in, kManyLightsStages, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0,
-                  kernels_->traits().tracesShadowMaps);
+                  kernels_->traits().tracesShadowMaps, in.scene);
   options.withoutSurfaces = withoutSurfaces_;
   GiOutput out = renderSamples(in, options, stages, stats);
   addMeshes(in, options, stages, out, stats);
   addLinks(in, options, stages, out, stats);
+  if (!options.carrierReason.empty()) stats.chosen["indirect"] = options.carrierReason;
   out.stats = published(stats, manyLightsStatistics());
   return out;
 }

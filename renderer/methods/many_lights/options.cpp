@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "renderer/methods/carrier_rule.h"
+
 namespace lamplighter {
 namespace {
 
@@ -22,11 +24,10 @@ uint64_t limitOf(int parameter) {
 
 }  // namespace
 
-ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor)
+ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor,
+                                     const RenderScene& scene)
     : ManyLightsParameters(manyLightsParameters().read(settings)) {
-  // Transfer takes the bounces within an object from those of light samples.
-  if (indirect == ManyLightsIndirect::automatic)
-    indirect = onProcessor && !prt ? ManyLightsIndirect::meshes : ManyLightsIndirect::samples;
+  if (indirect == ManyLightsIndirect::automatic) choose(onProcessor, scene);
   if (indirect == ManyLightsIndirect::meshes) {
     meshBounces = std::exchange(bounces, 0);
     directShare = 1.0f;
@@ -41,6 +42,19 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, boo
   groupShare *= 0.01f;  // percent to a share of 1
   // Each interreflection within an object counts as a bounce, like a bounce of a VPL.
   prtBounces = std::min(bounces, prtBounces);
+}
+
+void ManyLightsOptions::choose(bool onProcessor, const RenderScene& scene) {
+  if (!onProcessor || prt) {
+    indirect = ManyLightsIndirect::samples;
+    // Transfer takes the bounces within an object from those of light samples.
+    carrierReason = onProcessor ? "samples: with prt" : "samples: on this backend";
+    return;
+  }
+  const CarrierChoice choice = carrierFor(scene, texel);
+  const bool isLinks = choice.carrier == BouncedCarrier::links;
+  indirect = isLinks ? ManyLightsIndirect::links : ManyLightsIndirect::meshes;
+  carrierReason = (isLinks ? "links: " : "meshes: ") + choice.reason;
 }
 
 void ManyLightsOptions::forgoVisibility() {

@@ -12,9 +12,12 @@ namespace lamplighter {
 // off, so that two options differ only where the picture or the work does.
 struct ManyLightsOptions : ManyLightsParameters {
   // `refines`: the caller has time for refinement. `onProcessor`: the backend renders there.
-  ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor);
+  ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor,
+                    const RenderScene& scene);
   ManyLightsOptions() = default;
 
+  // What carries bounced light, and why, where that is left to the scene; otherwise empty.
+  std::string carrierReason;
   // Another carrier has the direct light of surfaces.
   bool withoutSurfaces = false;
   // Bounces of light that is kept on surfaces; 0: none is. `bounces` are those of light samples.
@@ -51,6 +54,7 @@ struct ManyLightsOptions : ManyLightsParameters {
   int mostMaps() const;  // coarse maps in memory, including those of refinement
 
  private:
+  void choose(bool onProcessor, const RenderScene& scene);
   static size_t bytesOf(int mebibytes) { return static_cast<size_t>(mebibytes) << 20; }
 };
 

@@ -48,7 +48,9 @@ const ParameterTable<P>& manyLightsParameters() {
        "samples: light samples carry it. meshes: surfaces keep it and the light of the sky, smooth "
        "and current in each frame, and all light samples are placed on lamps and suns. links: "
        "texels of the surfaces exchange it along links that are found once, so that moving lights "
-       "trace no rays for it. automatic: meshes on the cpu backend, samples on gl and with prt.",
+       "trace no rays for it. automatic: on the cpu backend links in rooms without sky and gloss "
+       "whose surfaces are "
+       "larger than texels, otherwise meshes; samples on gl and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
         {"meshes", ManyLightsIndirect::meshes},

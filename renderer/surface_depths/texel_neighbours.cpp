@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_sight.h"
+#include "renderer/surface_depths/texel_neighbours.h"
 
 #include <algorithm>
 #include <atomic>
@@ -30,7 +30,8 @@ bool blocksBouncedLight(const RenderScene& scene, const RayCaster& rays, Ray ray
   return false;
 }
 
-uint64_t TexelSight::find(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels) {
+uint64_t TexelNeighbours::find(const RenderScene& scene, const RayCaster& rays,
+                               const TexelSet& texels) {
   std::vector<std::atomic<uint8_t>> isSplit(texels.size());
   std::atomic<uint64_t> traced = 0;
   tbb::parallel_for(size_t{0}, texels.parts().size(), [&](size_t side) {
@@ -55,9 +56,9 @@ uint64_t TexelSight::find(const RenderScene& scene, const RayCaster& rays, const
   return traced;
 }
 
-void TexelSight::keepVisible(const RenderScene& scene, const RayCaster& rays,
-                             const TexelSet& texels, const vec3& position,
-                             TexelBlend& blend) const {
+void TexelNeighbours::keepVisible(const RenderScene& scene, const RayCaster& rays,
+                                  const TexelSet& texels, const vec3& position,
+                                  TexelBlend& blend) const {
   const auto isUsed = [&](size_t k) { return blend.weights[k] > 0.0f; };
   bool isSplit = false;
   for (size_t k = 0; k < 4; ++k) isSplit = isSplit || (isUsed(k) && isSplit_[blend.texels[k]] != 0);
