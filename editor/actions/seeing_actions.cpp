@@ -42,6 +42,19 @@ void addExplain(ActionRegistry& r) {
        "", [](Session& s, const Arguments& a) {
          s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
        }});
+  r.add({"explain.sender", "Show the light of a surface", "ROW",
+         "Draws lines from the explained point to a surface that reflects light to it, by its row "
+         "from 0.",
+         "",
+         [](Session& s, const Arguments& a) { s.points().explainer().chooseSender(rowOf(a[0])); }});
+  r.add({"explain.senders", "Show where bounced light comes from", "",
+         "Draws lines from the explained point to the surfaces that reflect light to it.", "",
+         [](Session& s, const Arguments&) { s.points().explainer().chooseAllSenders(); }});
+  r.add({"explain.sender_object", "Select what reflects light", "ROW",
+         "Selects the object that reflects light to the explained point, by its row from 0.", "",
+         [](Session& s, const Arguments& a) {
+           s.select({s.points().explainer().senderObject(rowOf(a[0]))});
+         }});
   r.add({"explain.close", "Close the explanation", "",
          "Closes the list of light contributions and occluders.", "",
          [](Session& s, const Arguments&) { s.points().explainer().close(); },

@@ -74,20 +74,10 @@ void drawPoints(Overlay& overlay, const View& view, std::span<const InspectedPoi
   }
 }
 
-void drawLinks(Overlay& overlay, const View& view, std::span<const InspectedLink> links) {
-  constexpr vec3 kLink{0.9f, 0.9f, 0.6f};
-  float most = 0.0f;
-  for (const InspectedLink& link : links) most = std::max(most, link.weight);
-  for (const InspectedLink& link : links)
-    if (link.weight > 0.0f)
-      addLine(overlay, view, link.from, link.to, vec4(kLink, 0.7f * link.weight / most), 1.0f);
-}
-
 }  // namespace
 
 void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
               const RayCaster& rays, int chosen) {
-  if (inspection.links) drawLinks(overlay, view, inspection.links());
   if (inspection.points) drawPoints(overlay, view, inspection.points(), rays);
   // Direct and indirect samples are scaled separately; otherwise all bounces would be black.
   float most[2] = {0.0f, 0.0f};

@@ -36,7 +36,8 @@ PickedPoint PointTools::pointAt(const Subject& s, const vec2& pixel) const {
 
 void PointTools::explainAt(const Subject& s, const vec2& pixel) {
   const PickedPoint point = pointAt(s, pixel);
-  explainer_.ask(s.scene, s.renderer.scene(), *s.renderer.rays(), point, samples(s));
+  explainer_.ask(s.scene, s.renderer.scene(), *s.renderer.rays(), point, samples(s),
+                 s.renderer.inspect());
 }
 
 void PointTools::measureAt(const Subject& s, const vec2& pixel) {
@@ -94,7 +95,8 @@ void PointTools::update(const Subject& s, bool pictureChanged, bool sceneChanged
     ownSamples_ = !methodHasThem;
     settings_ = s.settings;
     if (explainer_.answer() != nullptr)
-      explainer_.askAgain(s.scene, s.renderer.scene(), *s.renderer.rays(), samples(s));
+      explainer_.askAgain(s.scene, s.renderer.scene(), *s.renderer.rays(), samples(s),
+                          s.renderer.inspect());
   }
   if (!probesPointer_) return;
   if (!pointerAt_)

@@ -27,6 +27,7 @@ std::string valueText(const StatisticSpec& spec, double value) {
   if (spec.unit == "bytes") return fmt::format("{:.3g} MiB", value / (1 << 20));
   if (spec.unit == "share")
     return fmt::format("{:.0f}%", std::floor(100.0f * static_cast<float>(value)));
+  if (spec.unit == "%") return fmt::format("{:.0f}%", std::floor(value));
   if (spec.unit == "m") return fmt::format("{:.2g} m", value);
   return spec.isWhole ? grouped(value) : fmt::format("{:.3g}", value);
 }
@@ -46,7 +47,7 @@ std::vector<StatusText> statusTexts(const std::vector<Statistic>& statistics) {
     if (spec->status.empty()) continue;
     const bool isPart = continues(spec->status);
     if (isPart && !isShown) continue;
-    const bool isSeen = value >= spec->shownFrom;
+    const bool isSeen = value >= spec->shownFrom && value < spec->shownBelow;
     if (!isPart) isShown = isSeen;
     if (!isSeen) continue;
     const std::string text = filled(spec->status, *spec, value);

@@ -18,6 +18,7 @@
 #include <concepts>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,7 +50,7 @@ enum class StatisticKind {
 struct StatisticSpec {
   std::string name{};     // as in --stats
   std::string label{};    // as in the timeline
-  std::string unit{};     // what is counted, in the plural; or "bytes", "m", "share" (of 1)
+  std::string unit{};     // what is counted, in the plural; or "bytes", "m", "%", "share" (of 1)
   std::string meaning{};  // one sentence
   StatisticKind kind = StatisticKind::state;
   bool inTimeline = false;  // is a counter of the timeline
@@ -58,6 +59,7 @@ struct StatisticSpec {
   // the value is 1. A text that starts with a comma or a space continues that of the row before.
   std::string status{};
   double shownFrom = 1.0;  // smaller values are not in the status line
+  double shownBelow = std::numeric_limits<double>::infinity();  // nor others than smaller ones
 
   std::string budget{};  // the parameter that limits it, if any
   // Of work: the stages whose time it takes. The cost of the budget is this time.

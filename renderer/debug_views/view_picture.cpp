@@ -54,14 +54,9 @@ std::string problemOf(DebugView view, const ViewSubject& in) {
   return "";
 }
 
-// "it needs texels: many_lights with the technique light_maps".
-std::string whoShows(Capability capability) {
-  std::string who;
-  for (const MethodInfo& method : methods())
-    for (const ShownCapability& shown : method.shows)
-      if (shown.capability == capability)
-        who += (who.empty() ? "" : ", or ") + method.name + (shown.when.empty() ? "" : " ") +
-               shown.when;
+// "it needs texels: choose many_lights with the technique light_maps".
+std::string whatIsMissing(Capability capability) {
+  const std::string who = methodsThatShow(capability);
   return std::string("it needs ") + nameOf(capability) + (who.empty() ? "" : ": choose ") + who;
 }
 
@@ -70,7 +65,7 @@ std::string whoShows(Capability capability) {
 std::string problemOf(DebugView view, const Inspection& inspection) {
   const DebugViewInfo& info = infoOf(view);
   for (const Capability capability : info.needs)
-    if (!inspection.has(capability)) return whoShows(capability);
+    if (!inspection.has(capability)) return whatIsMissing(capability);
   if (!info.method.empty() && !inspection.pictures.contains(info.name))
     return "it is a view of the method " + info.method;
   return "";

@@ -35,11 +35,10 @@ AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelRa
       out.position = p.position;
       out.object = p.object;
       out.triangle = p.triangle;
-      const ObjectAtlas& own = light.atlases()[p.object];
       const SeenTriangle seen(in.scene, p);
-      if (!own.atlas || !seen.isSound || own.atlas->chartOfTriangle[p.triangle] == kNone) continue;
-      out.blend = light.blendAt(in.scene, rays, p.object, seen.isBack, p.position,
-                                own.texelsOf(p.triangle, p.position));
+      if (!seen.isSound) continue;
+      out.blend = light.blendAt(in.scene, rays, p.object, p.triangle, seen.isBack, p.position);
+      if (!out.blend.isAny()) continue;
       const PixelReflectance r = reflectanceOf(in.scene, p, seen.weights, view_.eye, options);
       out.reflectance = r.diffuse + r.lobe;
     }
@@ -71,11 +70,6 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
                                                    const SurfacePictureOptions& options,
                                                    bool& gbufferIsCurrent) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});
-  if (light.irradiance().empty()) {
-    samples_.clear();
-    shown_ = nullptr;
-    return picture;
-  }
   Sample before;
   if (changes.rebuilt || changes.materials || changes.objects || options != options_ ||
       light.texelVersion() != texelVersion_) {
@@ -99,6 +93,10 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     in.backend.renderGBuffer(view_, pixelJitter(static_cast<int>(samples_.size()) - 1, antialias));
     gbufferIsCurrent = false;
     samples_.push_back(sampleOf(in, light, options, {}, {}));
+  }
+  if (light.irradiance().empty()) {
+    shown_ = nullptr;
+    return picture;
   }
   // The shifted ones when there are all.
   const bool isSmooth =

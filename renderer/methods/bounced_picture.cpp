@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "renderer/backends/gbuffer_view.h"
+#include "renderer/methods/mesh_senders.h"
 #include "renderer/methods/pixel_jitter.h"
 #include "renderer/methods/surface_elements.h"
 
@@ -67,6 +68,15 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
 std::shared_ptr<const ElementView> BouncedPicture::elements() const {
   if (scene_ == nullptr || light_.values().empty()) return nullptr;
   return std::make_shared<SurfaceElements>(*scene_, light_);
+}
+
+InspectedLinks BouncedPicture::links() const {
+  if (scene_ == nullptr || light_.values().empty() || light_.part() == SurfaceLightPart::sky)
+    return nullptr;
+  return [this](const InspectedPlace& place) -> std::optional<std::vector<InspectedLink>> {
+    if (!unseen_.none()) return std::nullopt;
+    return meshSendersTo(*scene_, light_, place);
+  };
 }
 
 int BouncedPicture::framesLeft(int antialias) const {

@@ -36,6 +36,9 @@ class BouncedPicture {
   int framesLeft(int antialias) const;
   // For debug views. Null without light. Valid until the next update.
   std::shared_ptr<const ElementView> elements() const;
+  // Inspection::links, of the light of elements. Null without bounced light. Valid until the next
+  // update.
+  InspectedLinks links() const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const {
     return records_.bytes() + plain_.bytes() + smooth_.bytes() + lobes_.bytes();

@@ -101,11 +101,27 @@ struct InspectedPoint {
   bool isStale = false;               // it waits for an update
 };
 
-// A connection along which light is exchanged.
-struct InspectedLink {
-  vec3 from{0.0f}, to{0.0f};
-  float weight = 0.0f;  // relative to the other links
+// A point of a surface whose links are asked for. Lengths are in the unit of the scene.
+struct InspectedPlace {
+  uint32_t object = 0, triangle = 0;  // index into RenderScene::objects; triangle of the object
+  bool isBack = false;                // of the triangle
+  vec2 weights{0.0f};                 // of the second and third corner of the triangle
+  vec3 position{0.0f};                // world space
 };
+
+// Bounced light that a point receives from a part of a surface.
+struct InspectedLink {
+  vec3 from{0.0f}, to{0.0f};  // the point; the middle of the sender [unit of the scene]
+  uint32_t object = 0;        // of the sender: index into RenderScene::objects
+  vec3 irradiance{0.0f};      // that it brings to the point [W/m²]
+  float size = 0.0f;          // side of a square with the area of the sender [unit of the scene]
+};
+
+// Where the bounced light of a point comes from. The sum over all links is the irradiance of the
+// point by bounced light, as the method keeps it on the surface, within 1e-5 of it once the picture
+// is settled. Empty: the point gets none. None: the links are not found yet.
+using InspectedLinks =
+    std::function<std::optional<std::vector<InspectedLink>>(const InspectedPlace& place)>;
 
 // Valid until the method's next render() or reset(). Capabilities that a method does not have are
 // null or empty.
@@ -120,7 +136,7 @@ struct Inspection {
   std::shared_ptr<const ElementView> elements;
   std::function<TransferState(uint32_t object)> transfer;
   std::function<std::vector<InspectedPoint>()> points;
-  std::function<std::vector<InspectedLink>()> links;
+  InspectedLinks links;
   // The method's own debug views (MethodInfo::views), by name. Each function draws one for the view
   // of the last frame.
   std::map<std::string, std::function<ViewPicture()>> pictures;

@@ -9,6 +9,8 @@ class LinkedPicture {
  public:
   // To be called with each frame, also with those that do not show the light.
   void outdate(const FrameInputs& in) {
+    scene_ = &in.scene;
+    rays_ = &in.services.rays();
     light_.outdate(in.changes);
     picture_.outdate(in);
   }
@@ -26,16 +28,19 @@ class LinkedPicture {
     return light_.isDone() ? picture_.framesLeft(antialias) : antialias + 1;
   }
   const TexelRadiosity& light() const { return light_; }
-  // By name: views of texels. They refer to this object.
+  // By name: views of texels (texel_views.h), after outdate(). They refer to this object.
   std::map<std::string, std::function<ViewPicture()>> views() const;
+  // Inspection::links. Null before update(). It refers to this object.
+  InspectedLinks links() const;
   void forget() { *this = LinkedPicture(); }
 
  private:
   TexelRadiosity light_;
   AtlasPicture picture_;
+  // Of this frame.
+  const RenderScene* scene_ = nullptr;
+  const RayCaster* rays_ = nullptr;
+  bool isUsed_ = false;  // since forget()
 };
-
-// Those of views().
-const std::vector<MethodView>& linkedViews();
 
 }  // namespace lamplighter

@@ -116,7 +116,12 @@ const StatisticTable<StoredDepthStats>& storedDepthStatistics() {
        {.name = "prepared",
         .label = "Prepared",
         .unit = "%",
-        .meaning = "Share of the depths and links that is found."}},
+        .meaning = "Share of the depths and links of texels that is found. Until all are, bounced "
+                   "light is missing, or that of before.",
+        .kind = StatisticKind::pending,
+        .status = "finding links {}",
+        .shownFrom = 0.0,
+        .shownBelow = 100.0}},
       {&S::depthBytes,
        {.name = "depth_bytes",
         .label = "Memory of depths and links",

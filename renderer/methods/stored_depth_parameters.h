@@ -33,7 +33,8 @@ const ParameterTable<StoredDepthParameters>& storedDepthParameters();
 
 struct StoredDepthStats {
   int texels = 0, links = 0, segments = 0;
-  float texelSide = 0.0f, ratio = 0.0f, progress = 0.0f;
+  float texelSide = 0.0f, ratio = 0.0f;
+  float progress = 100.0f;  // percent
   uint64_t texelRays = 0, depthBytes = 0;
 
   void take(const TexelRadiosity& light);

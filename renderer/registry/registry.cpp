@@ -32,6 +32,16 @@ const MethodInfo& findMethod(const std::string& name) {
   throw InputError("method", "there is no method '" + name + "'", "give one of: " + names);
 }
 
+std::string methodsThatShow(Capability capability) {
+  std::string who;
+  for (const MethodInfo& method : methods())
+    for (const ShownCapability& shown : method.shows)
+      if (shown.capability == capability)
+        who += (who.empty() ? "" : ", or ") + method.name + (shown.when.empty() ? "" : " ") +
+               shown.when;
+  return who;
+}
+
 void addMethod(MethodInfo method) {
   if (std::ranges::find(methods(), method.name, &MethodInfo::name) != methods().end())
     throw std::logic_error("there are two methods " + method.name);

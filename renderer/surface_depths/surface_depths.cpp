@@ -207,6 +207,12 @@ bool SurfaceDepths::sees(const SurfaceTexel& texel, size_t number, const vec3& p
   return value == kOpen || glm::length(d) * steps_ <= static_cast<float>(value) + 0.5f;
 }
 
+float SurfaceDepths::segmentShareOf(size_t texel) const {
+  const Run& run = runs_[runOf_[texel]];
+  return static_cast<float>(run.segments.values.size()) /
+         static_cast<float>(run.count * layout_.pixels());
+}
+
 size_t SurfaceDepths::segments() const {
   size_t count = 0;
   for (const Run& run : runs_) count += run.segments.values.size();

@@ -42,6 +42,11 @@ class SurfaceDepths {
   static constexpr uint16_t kOpen = 0xffffu;
   uint16_t valueOf(size_t texel, uint32_t pixel) const;
 
+  // Segments of the run of a texel, over the pixels of all its maps: 1 if nothing is compressed.
+  float segmentShareOf(size_t texel) const;
+  // Whether all pixels of a texel are found.
+  bool isFound(size_t texel) const { return (runOf_[texel] + 1) * blocks() <= nextUnit_; }
+
   const DepthMapLayout& layout() const { return layout_; }
   size_t segments() const;
   // Pixels of all maps: what the segments stand for.

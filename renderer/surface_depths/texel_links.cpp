@@ -8,7 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/surface_depths/link_bound.h"
+#include "renderer/surface_depths/link_walk.h"
 #include "renderer/surface_light/form_factor.h"
 
 namespace lamplighter {
@@ -16,8 +16,6 @@ namespace {
 
 // Squares nearer than so many of their sides have their form factor in closed form.
 constexpr float kNear = 6.0f;
-// Texels of a node whose visibility stands for all.
-constexpr uint32_t kTested = 4;  // bits of TexelLink::seen
 
 }  // namespace
 
@@ -84,17 +82,17 @@ void TexelLinks::goOn(const TexelSet& texels, const TexelTree& tree, const Visib
       const float factor = formFactorOf(spot, texels, tree, node);
       if (factor <= 0.0f) continue;
       const uint32_t before = known == Known::apart ? former.seen(number) : 0;
-      const uint32_t places = std::min(node.texels, kTested);
-      uint32_t seen = 0;
-      for (uint32_t k = 0; k < places; ++k) {
-        const vec3& point = texels[tree.testedTexel(node, k, places)].spot.position;
+      uint32_t places = 0, seen = 0;
+      forEachTested(tree, node, [&](uint32_t sender) {
+        const uint32_t k = places++;
+        const vec3& point = texels[sender].spot.position;
         const vec3 from = spot.rayOrigin();
         const bool isKept =
             known == Known::apart && !former_.moves().meets({from, 0.0f, point - from, 1.0f});
         const bool isSeen = isKept ? (before >> k & 1u) != 0 : sees(texel, point);
         seen |= isSeen ? 1u << k : 0u;
         ++(isKept ? kept : asked);
-      }
+      });
       if (seen != 0)
         found[i].push_back(
             {number, seen,

@@ -30,6 +30,8 @@ class TexelLinks {
   // depend on how many, or on what was seen before.
   void goOn(const TexelSet& texels, const TexelTree& tree, const Visibility& sees, size_t most);
   bool isDone() const { return next_ == count_; }
+  // Texels up to this one, without it, have their links.
+  size_t found() const { return next_; }
   float progress() const {
     return isDone() ? 1.0f : static_cast<float>(next_) / static_cast<float>(count_);
   }

@@ -6,6 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/surface_depths/texel_sight.h"
+
 namespace lamplighter {
 namespace {
 
@@ -21,14 +23,6 @@ bool seesTexel(const RenderScene& scene, const RayCaster& rays, const vec3& posi
 }
 
 }  // namespace
-
-bool blocksBouncedLight(const RenderScene& scene, const RayCaster& rays, Ray ray) {
-  for (Hit hit = rays.intersect(ray); hit; hit = rays.intersect(ray)) {
-    if (!scene.objects[hit.object].isAreaLight) return true;
-    ray.tNear = hit.t + rayEpsilon(ray.origin + hit.t * ray.direction) / glm::length(ray.direction);
-  }
-  return false;
-}
 
 uint64_t TexelNeighbours::find(const RenderScene& scene, const RayCaster& rays,
                                const TexelSet& texels) {

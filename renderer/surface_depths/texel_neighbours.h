@@ -9,9 +9,6 @@
 
 namespace lamplighter {
 
-// By anything but area lights, which do not block bounced light, so that they can move freely.
-bool blocksBouncedLight(const RenderScene& scene, const RayCaster& rays, Ray ray);
-
 class TexelNeighbours {
  public:
   // Traces up to four rays a texel, to its neighbours in the rectangle of its object. Returns their

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/scene/surface.h"
+#include "renderer/surface_depths/texel_sight.h"
 
 namespace lamplighter {
 namespace {
@@ -149,9 +150,7 @@ void TexelRadiosity::findAlbedo(const RenderScene& scene) {
 
 void TexelRadiosity::findLinks(const RenderScene& scene, const RayCaster& rays, uint64_t most) {
   const Visibility byRays = [&](uint32_t t, const vec3& point) {
-    const vec3 from = texels_[t].spot.rayOrigin(), d = point - from;
-    if (glm::dot(d, texels_[t].spot.geometricNormal) <= 0.0f) return false;
-    return !blocksBouncedLight(scene, rays, {from, 0.0f, d, 1.0f - 1e-3f});
+    return seesByRay(scene, rays, texels_[t], point);
   };
   const Visibility byDepths = [&](uint32_t t, const vec3& point) {
     return depths_.sees(texels_[t], t, point);
@@ -223,17 +222,40 @@ void TexelRadiosity::findSky(const RenderScene& scene, const RayCaster& rays, ui
 
 // Jacobi iterations: what texels reflect is averaged upwards, then gathered along the links.
 void TexelRadiosity::bounce() {
-  std::vector<vec3> direct(texels_.size()), radiosity(texels_.size()), byNode;
+  std::vector<vec3> direct(texels_.size()), byNode;
   light_.sum(lights_, direct);
   irradiance_.assign(texels_.size(), vec3(0.0f));
+  radiosity_.assign(texels_.size(), vec3(0.0f));
   for (int b = 0; b < options_.bounces; ++b) {
-    for (size_t t = 0; t < radiosity.size(); ++t)
-      radiosity[t] = albedo_[t] * (direct[t] + irradiance_[t]);
-    tree_.pull(radiosity, byNode);
+    for (size_t t = 0; t < radiosity_.size(); ++t)
+      radiosity_[t] = albedo_[t] * (direct[t] + irradiance_[t]);
+    tree_.pull(radiosity_, byNode);
     links_.gather(byNode, irradiance_);
   }
   isLit_ = light_.isDone();
   ++version_;
+}
+
+TexelBlend TexelRadiosity::blendAt(const RenderScene& scene, const RayCaster& rays, uint32_t object,
+                                   uint32_t triangle, bool isBack, const vec3& position) const {
+  if (object >= atlases_.size()) return {};
+  const ObjectAtlas& own = atlases_[object];
+  if (!own.atlas || own.atlas->chartOfTriangle[triangle] == kNone) return {};
+  TexelBlend blend = texels_.blendAt(object, isBack, own.texelsOf(triangle, position));
+  neighbours_.keepVisible(scene, rays, texels_, position, blend);
+  return blend;
+}
+
+std::optional<std::vector<TexelSender>> TexelRadiosity::sendersTo(const RenderScene& scene,
+                                                                  const RayCaster& rays,
+                                                                  uint32_t object,
+                                                                  uint32_t triangle, bool isBack,
+                                                                  const vec3& position) const {
+  if (!unseen_.none() || !links_.isDone() || irradiance_.empty() ||
+      radiosity_.size() != texels_.size())
+    return std::nullopt;
+  return lamplighter::sendersTo(blendAt(scene, rays, object, triangle, isBack, position), texels_,
+                                tree_, links_, radiosity_);
 }
 
 bool TexelRadiosity::isDone() const {

@@ -14,6 +14,7 @@
 #include "renderer/surface_depths/texel_light.h"
 #include "renderer/surface_depths/texel_links.h"
 #include "renderer/surface_depths/texel_neighbours.h"
+#include "renderer/surface_depths/texel_senders.h"
 
 namespace lamplighter {
 
@@ -51,17 +52,20 @@ class TexelRadiosity {
   // Of bounced light, by texel [W/m²]; empty before it is found for the first time.
   const std::vector<vec3>& irradiance() const { return irradiance_; }
   const TexelSet& texels() const { return texels_; }
-  // Of a point of a side of an object, given in world space and in texels of its rectangle.
-  TexelBlend blendAt(const RenderScene& scene, const RayCaster& rays, uint32_t object, bool isBack,
-                     const vec3& position, const vec2& texels) const {
-    TexelBlend blend = texels_.blendAt(object, isBack, texels);
-    neighbours_.keepVisible(scene, rays, texels_, position, blend);
-    return blend;
-  }
   // By object.
   const std::vector<ObjectAtlas>& atlases() const { return atlases_; }
   const SurfaceDepths& depths() const { return depths_; }
   const TexelLinks& links() const { return links_; }
+  const TexelTree& tree() const { return tree_; }
+  const TexelRadiosityOptions& options() const { return options_; }
+  // The texels around a point of a triangle (world space) that it sees. No weights: it has none.
+  TexelBlend blendAt(const RenderScene& scene, const RayCaster& rays, uint32_t object,
+                     uint32_t triangle, bool isBack, const vec3& position) const;
+  // By sender, what the light of such a point is the sum of. None while links are found, and until
+  // all changes are taken.
+  std::optional<std::vector<TexelSender>> sendersTo(const RenderScene& scene, const RayCaster& rays,
+                                                    uint32_t object, uint32_t triangle, bool isBack,
+                                                    const vec3& position) const;
 
   // Of the last update.
   struct Counts {
@@ -108,10 +112,11 @@ class TexelRadiosity {
   // When links were complete, and when texels were found last; and what moved since then.
   PlacedTexels placesOfLinks_, places_;
   std::set<uint32_t> movedSinceLinks_, moved_;
-  std::vector<Sides> sides_;                // of objects with a mesh
-  std::vector<vec3> albedo_;                // by texel
-  std::vector<vec3> irradiance_;            // by texel
-  bool isStale_ = false;                    // surfaces moved since texels were found
+  std::vector<Sides> sides_;      // by object
+  std::vector<vec3> albedo_;      // by texel
+  std::vector<vec3> irradiance_;  // by texel
+  std::vector<vec3> radiosity_;   // by texel, of the last bounce: the links turn it to irradiance_
+  bool isStale_ = false;          // surfaces moved since texels were found
   bool isStarted_ = false, isLit_ = false;  // isLit_: irradiance_ is that of now
   uint32_t version_ = 0, texelVersion_ = 0;
   Counts counts_;

@@ -253,8 +253,7 @@ TexelBlend TexelSet::blendAt(uint32_t object, bool isBack, const vec2& texels) c
   const Part& part = parts_[2 * object + (isBack ? 1 : 0)];
   if (part.count == 0) return {};
   const TexelBlend shown = blendOf(part, texels, false);
-  const bool isFound = std::ranges::any_of(shown.weights, [](float w) { return w > 0.0f; });
-  return isFound ? shown : blendOf(part, texels, true);
+  return shown.isAny() ? shown : blendOf(part, texels, true);
 }
 
 // Of texels in reach. `withBuried`: also of buried ones.

@@ -43,6 +43,10 @@ enum class TexelOrder : uint8_t { zigzag, spiral, greedy };
 struct TexelBlend {
   std::array<uint32_t, 4> texels{};
   std::array<float, 4> weights{};  // the sum is 1; 0 if there is no texel
+
+  bool isAny() const {
+    return weights[0] > 0.0f || weights[1] > 0.0f || weights[2] > 0.0f || weights[3] > 0.0f;
+  }
 };
 
 class TexelSet {

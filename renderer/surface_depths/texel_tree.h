@@ -37,11 +37,6 @@ class TexelTree {
   const std::vector<uint32_t>& order() const { return order_; }
   uint32_t texelOf(const Node& leaf) const { return order_[leaf.firstTexel]; }
 
-  // The k-th of `places` texels, spread over those of a node.
-  uint32_t testedTexel(const Node& node, uint32_t k, uint32_t places) const {
-    return order_[node.firstTexel + (2 * k + 1) * node.texels / (2 * places)];
-  }
-
   // Means by area of values of texels, by node.
   void pull(const std::vector<vec3>& byTexel, std::vector<vec3>& byNode) const;
 

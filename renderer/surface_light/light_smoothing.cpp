@@ -125,6 +125,42 @@ void LightSmoothing::apply(const SurfaceMesh& mesh, std::vector<vec3>& values) c
   }
 }
 
+// From the last step of apply() back to the first.
+std::map<uint32_t, double> LightSmoothing::sharesOf(const SurfaceMesh& mesh,
+                                                    uint32_t sample) const {
+  std::map<uint32_t, double> shares{{sample, 1.0}};
+  // Shares out what a sample has among its neighbours and, by `own`, itself.
+  const auto share = [&](uint32_t s, double whole, double own, std::map<uint32_t, double>& out) {
+    const Near near = nearOf(mesh, s);
+    double weights = own;
+    for (size_t i = 0; i < near.samples.size(); ++i)
+      weights += static_cast<double>(weights_[near.first + i]);
+    if (own > 0.0) out[s] += whole * own / weights;
+    for (size_t i = 0; i < near.samples.size(); ++i)
+      if (weights_[near.first + i] > 0.0f)
+        out[near.firstSample + near.samples[i]] +=
+            whole * static_cast<double>(weights_[near.first + i]) / weights;
+  };
+  for (size_t k = fills_.size(); k-- > 0;) {
+    const auto found = shares.find(fills_[k]);
+    if (found == shares.end()) continue;
+    const double whole = found->second;
+    shares.erase(found);
+    share(fills_[k], whole, 0.0, shares);
+  }
+  for (int pass = 0; pass < passes_; ++pass) {
+    std::map<uint32_t, double> before;
+    for (const auto& [s, whole] : shares) {
+      if (isBuried_[s])
+        before[s] += whole;
+      else
+        share(s, whole, 1.0, before);
+    }
+    shares = std::move(before);
+  }
+  return shares;
+}
+
 void LightSmoothing::fillCorners(const SurfaceMesh& mesh, std::vector<vec3>& corners) const {
   tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
     if (mesh.objectOfLeaf(static_cast<uint32_t>(k)) == SurfaceMesh::kUnused) return;

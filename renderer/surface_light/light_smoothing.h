@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "renderer/surface_light/gather_links.h"
@@ -21,6 +22,8 @@ class LightSmoothing {
   void apply(const SurfaceMesh& mesh, std::vector<vec3>& values) const;
   // The same for values of the corners of elements, within each element.
   void fillCorners(const SurfaceMesh& mesh, std::vector<vec3>& corners) const;
+  // The samples whose values apply() averages for one sample; the sum of their weights is 1.
+  std::map<uint32_t, double> sharesOf(const SurfaceMesh& mesh, uint32_t sample) const;
   bool isBuried(uint32_t sample) const { return isBuried_[sample] != 0; }
   // GatherLinks::reachOf() of a sample.
   float reachOf(uint32_t sample) const { return reach_[sample]; }

@@ -141,6 +141,21 @@ void SurfaceLight::findLight(int bounces, int most) {
   for (size_t s = 0; s < state_.sky.size(); ++s) state_.sky[s] = skyBrightness_ * sky_[s];
   if (skyBrightness_ != vec3(0.0f)) state_.smoothing.apply(mesh_, state_.sky);
   bounceLight(mesh_, links_, state_, bounces, most, options_.part, bounced_, reflected_);
+  gathered_ = static_cast<size_t>(most);
+}
+
+std::map<uint32_t, double> SurfaceLight::sharesOf(uint32_t object, uint32_t value) const {
+  if (value < mesh_.samples()) return state_.smoothing.sharesOf(mesh_, value);
+  const SurfaceMesh::Part& part = mesh_.part(object);
+  const SurfaceShape::Blend& blend = part.shape->blends[value - mesh_.samples() - part.firstBlend];
+  std::map<uint32_t, double> out;
+  for (size_t k = 0; k < blend.weights.size(); ++k) {
+    if (!(blend.weights[k] > 0.0f)) continue;
+    for (const auto& [sample, share] :
+         state_.smoothing.sharesOf(mesh_, part.firstSample + blend.samples[k]))
+      out[sample] += static_cast<double>(blend.weights[k]) * share;
+  }
+  return out;
 }
 
 float SurfaceLight::trustAt(const MeshPoint& point) const {

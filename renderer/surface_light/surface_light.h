@@ -50,6 +50,10 @@ class SurfaceLight {
 
   // Irradiance by value of the mesh [W/m²]: the part of the options. SurfacePicture shows it.
   const std::vector<vec3>& values() const { return bounced_; }
+  // The bounced light of a value of an object is the sum, by these weights, of what links of
+  // samples gather of reflected(): each sample's mean over its first linksGathered() links.
+  std::map<uint32_t, double> sharesOf(uint32_t object, uint32_t value) const;
+  size_t linksGathered() const { return gathered_; }
   // What elements reflect, for further points that gather light.
   const ReflectedLight& reflected() const { return reflected_; }
   // Irradiance of the sky without its suns at a point of an object along its known links
@@ -96,6 +100,7 @@ class SurfaceLight {
   SurfaceState state_;
   std::vector<vec3> bounced_;  // by value
   ReflectedLight reflected_;
+  size_t gathered_ = 0;  // links of a sample that bounced_ is found by
   std::vector<uint32_t> moved_;
   std::vector<Bounds> boxes_;
   bool hasOtherElements_ = false;

@@ -1,5 +1,6 @@
 // Shows the explanation of "why is it dark here?" with a row for each light.
 #include <algorithm>
+#include <cmath>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -11,8 +12,10 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kExplainWidth = 540.0f, kLeastExplainWidth = 430.0f,
-                kMostLightRows = 9.0f;  // design pixels; rows without scrolling
+constexpr float kExplainWidth = 540.0f, kLeastExplainWidth = 430.0f;  // design pixels
+// Rows of a table without scrolling, and the part of the view that the tables may cover: lines are
+// drawn in the view.
+constexpr float kLeastRows = 4.0f, kMostRows = 9.0f, kShareOfHeight = 0.4f;
 
 unsigned colourOf(LightArrival state) {
   switch (state) {
@@ -139,9 +142,10 @@ Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
   // If the view is very narrow, covers the neighbouring panels rather than cutting off columns.
   const float width = std::max(std::min(ui.px(kExplainWidth), view.size().x - 2.0f * gap),
                                ui.px(kLeastExplainWidth));
-  const float rowHeight = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
-  const float rows = std::min(static_cast<float>(answer->lights.size()), kMostLightRows) + 1.0f;
-  const float tableHeight = std::ceil(rows * (rowHeight + ui.px(1)) + ui.px(4));
+  const float room = std::floor(kShareOfHeight * view.size().y / heightOfRows(ui, 1.0f));
+  const float rows = std::min(static_cast<float>(answer->lights.size()),
+                              std::clamp(std::floor(0.5f * room), kLeastRows, kMostRows));
+  const float tableHeight = heightOfRows(ui, rows + 1.0f);
   ImGui::SetNextWindowPos({std::max(view.max.x - gap - width, 0.0f), view.min.y + gap});
   ImGui::SetNextWindowSize({width, 0.0f});
   beginOverlay(ui, "##explain");
@@ -158,6 +162,7 @@ Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
       lightRow(ui, *answer, row, chosen == &answer->lights[static_cast<size_t>(row)], requests);
     ImGui::EndTable();
   }
+  senderRows(ui, std::clamp(room - rows, kLeastRows, kMostRows), requests);
   const Rect covered = windowRect();
   ImGui::End();
   return covered;

@@ -95,6 +95,11 @@ void rightAligned(const std::string& text, unsigned colour) {
   colouredText(text, colour);
 }
 
+float heightOfRows(const PanelContext& ui, float rows) {
+  const float row = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+  return std::ceil(rows * (row + ui.px(1)) + ui.px(4));
+}
+
 void beginOverlay(const PanelContext& ui, const char* id) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);

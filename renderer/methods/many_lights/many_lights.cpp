@@ -389,6 +389,8 @@ Inspection ManyLights::inspect() const {
   if (visibility_ && lightMaps_)
     out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);
   out.elements = meshes_.elements();
+  out.links = linked_.links();
+  if (!out.links) out.links = meshes_.links();
   if (prt_) {
     out.transfer = [prt = prt_.get()](uint32_t object) {
       if (object >= prt->objects()) return TransferState::none;
@@ -422,7 +424,8 @@ MethodInfo manyLightsInfo() {
            {Capability::texels, "with the technique light_maps"},
            {Capability::elements, "with indirect=meshes"},
            {Capability::transfer, "with prt"},
-           {Capability::points, "with prt"}}};
+           {Capability::points, "with prt"},
+           {Capability::links, "with indirect=links or indirect=meshes"}}};
 }
 
 }  // namespace lamplighter

@@ -190,7 +190,8 @@ MethodInfo multiMeshInfo() {
           {{Capability::lights, ""},
            {Capability::patches, ""},
            {Capability::texels, ""},
-           {Capability::elements, ""}}};
+           {Capability::elements, ""},
+           {Capability::links, ""}}};
 }
 
 }  // namespace lamplighter

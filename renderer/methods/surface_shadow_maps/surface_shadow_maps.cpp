@@ -5,6 +5,7 @@
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/methods/many_lights/stages.h"
+#include "renderer/methods/texel_views.h"
 
 namespace lamplighter {
 namespace {
@@ -89,8 +90,11 @@ MethodInfo surfaceShadowMapsInfo() {
                 backend.kernels<ManyLightsKernels>("surface_shadow_maps"));
           },
           lights.needs,
-          {{Capability::lights, ""}, {Capability::patches, ""}, {Capability::texels, ""}},
-          linkedViews()};
+          {{Capability::lights, ""},
+           {Capability::patches, ""},
+           {Capability::texels, ""},
+           {Capability::links, ""}},
+          texelViews()};
 }
 
 }  // namespace lamplighter

@@ -116,7 +116,7 @@ TEST(Annotate, MarksOfParallelLightLieOnTheLitSurface) {
   EXPECT_EQ(mark->colour.a, 1.0f);                           // not faded, since nothing occludes it
 }
 
-TEST(Annotate, PointsAndLinksOfAMethodAreMarked) {
+TEST(Annotate, PointsOfAMethodAreMarked) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(10.0f, test::addMaterial(scene, vec3(0.5f))));
   const test::LitScene lit(scene);
@@ -131,15 +131,6 @@ TEST(Annotate, PointsAndLinksOfAMethodAreMarked) {
   EXPECT_EQ(overlay.shapes[0].points.size(), 3u);
   EXPECT_EQ(overlay.shapes[0].colour.a, 1.0f);
   EXPECT_LT(overlay.shapes[2].colour.a, 0.5f) << "below the floor";
-  overlay.shapes.clear();
-  inspection.points = nullptr;
-  inspection.links = [] {
-    return std::vector<InspectedLink>{
-        {vec3(0), vec3(1, 0, 0), 2.0f}, {vec3(0), vec3(1), 1.0f}, {vec3(0), vec3(2), 0.0f}};
-  };
-  drawVpls(overlay, view, inspection, *lit.rays, kNone);
-  ASSERT_EQ(overlay.shapes.size(), 2u) << "links without light are not drawn";
-  EXPECT_FLOAT_EQ(overlay.shapes[0].colour.a, 2.0f * overlay.shapes[1].colour.a);
 }
 
 }  // namespace

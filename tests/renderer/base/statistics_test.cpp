@@ -15,7 +15,7 @@ namespace {
 struct ProbeStats : GiStats {
   int probes = 0, waiting = 0, oldest = 0;
   uint64_t bytes = 0;
-  float share = 0.0f;
+  float share = 0.0f, found = 100.0f;
 };
 
 const StatisticTable<ProbeStats>& probeStatistics() {
@@ -44,6 +44,14 @@ const StatisticTable<ProbeStats>& probeStatistics() {
         .status = ", oldest {} frame(s)"}},
       {&S::bytes, {.name = "bytes", .label = "Memory", .unit = "bytes", .meaning = "Memory."}},
       {&S::share, {.name = "share", .label = "Share", .unit = "share", .meaning = "Done."}},
+      {&S::found,
+       {.name = "found",
+        .label = "Found",
+        .unit = "%",
+        .meaning = "Found.",
+        .status = "finding {}",
+        .shownFrom = 0.0,
+        .shownBelow = 100.0}},
       commonStatistics()};
   return table;
 }
@@ -75,6 +83,9 @@ TEST(Statistics, AreFoundByName) {
 TEST(Statistics, TheStatusLineListsThem) {
   ProbeStats stats;
   EXPECT_EQ(textsOf(stats), (Texts{"0 waiting"}));
+  stats.found = 99.9f;
+  EXPECT_EQ(textsOf(stats), (Texts{"0 waiting", "finding 99%"}));
+  stats.found = 100.0f;
   stats.probes = 1;
   stats.samplesPerPixel = 1;
   EXPECT_EQ(textsOf(stats), (Texts{"1 probe", "0 waiting"}));

@@ -159,6 +159,46 @@ TEST(SurfaceShadowMaps, IsPreparedInTheEnd) {
   }
 }
 
+TEST(SurfaceShadowMaps, ViewsShowWhatIsFound) {
+  BouncedRoom room;
+  room.settings.set("updates", 1);
+  room.settings.set("texel", 0.2f);
+  room.renderer.render(
+      {room.scene, SceneChanges::all(), room.view, "surface_shadow_maps", room.settings});
+  const auto draw = [&](const std::string& name) {
+    return room.renderer.inspect().pictures.at(name)();
+  };
+  const auto countOf = [](const ViewPicture& picture, const vec3& colour) {
+    int count = 0;
+    for (size_t i = 0; i < picture.image.pixels.size(); i += 4) {
+      bool isSame = true;
+      for (size_t c = 0; c < 3; ++c)
+        isSame = isSame && picture.image.pixels[i + c] ==
+                               static_cast<uint8_t>(255.0f * colour[static_cast<int>(c)]);
+      count += isSame ? 1 : 0;
+    }
+    return count;
+  };
+  const int pixels = room.view.width * room.view.height;
+  const ViewPicture before = draw("pending_links");
+  ASSERT_EQ(before.legend.swatches.size(), 3u);
+  const vec3 found = before.legend.swatches[0].colour;
+  const vec3 missing = before.legend.swatches[2].colour;
+  EXPECT_EQ(countOf(before, found), 0);
+  EXPECT_GT(countOf(before, missing), pixels / 4);
+  room.settings.reset("updates");
+  room.picture();
+  EXPECT_EQ(countOf(draw("pending_links"), found), pixels);
+  EXPECT_LT(countOf(draw("depth_segments"), vec3(0.0f)), pixels / 100);
+  // Maps of 16² pixels are coarse: some texels have errors, most have none.
+  const int right = countOf(draw("query_error"), vec3(0.0f));
+  EXPECT_LT(right, pixels);
+  EXPECT_GT(right, pixels / 4);
+  room.settings.set("link_visibility", std::string("rays"));
+  room.picture();
+  EXPECT_NE(draw("query_error").problem.find("link_visibility=stored"), std::string::npos);
+}
+
 TEST(SurfaceShadowMaps, IsManyLightsWithLinks) {
   BouncedRoom room;
   const Image links = room.fresh();

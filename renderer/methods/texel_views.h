@@ -1,0 +1,23 @@
+// Debug views of texels of surface: those of methods whose bounced light goes along links.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "renderer/methods/atlas_picture.h"
+
+namespace lamplighter {
+
+const std::vector<MethodView>& texelViews();
+
+// The present scene and its texels.
+struct TexelViewSubject {
+  const AtlasPicture& picture;
+  const TexelRadiosity& light;
+  const RenderScene& scene;
+  const RayCaster& rays;
+};
+// Draws a view by its name, which must be one of texelViews().
+ViewPicture drawTexelView(std::string_view name, const TexelViewSubject& in);
+
+}  // namespace lamplighter

@@ -1,0 +1,35 @@
+// The walk down the tree of texels that finds what may light a spot of the surface: for links that
+// are kept, and for light that is gathered once.
+#pragma once
+
+#include <algorithm>
+
+#include "renderer/surface_depths/link_bound.h"
+#include "renderer/surface_depths/texel_links.h"
+
+namespace lamplighter {
+
+// Calls test(texel) for up to four texels of a node, whose visibility stands for that of all.
+template <typename Test>
+void forEachTested(const TexelTree& tree, const TexelTree::Node& node, const Test& test) {
+  constexpr uint32_t kMostTested = 4;
+  const uint32_t tested = std::min(node.texels, kMostTested);
+  for (uint32_t k = 0; k < tested; ++k)
+    test(tree.order()[node.firstTexel + (2 * k + 1) * node.texels / (2 * tested)]);
+}
+
+// Calls visit(node, factor) for each node that may light a spot, by ascending nodes, with its form
+// factor if nothing stands between. `own`: the texel of the spot, which does not light itself, or
+// TexelSet::kNone. `error`: nodes whose form factor may be larger are divided.
+template <typename Visit>
+void walkLinks(const SurfaceSpot& spot, uint32_t own, const TexelSet& texels, const TexelTree& tree,
+               float error, const Visit& visit) {
+  forEachEnd(spot, tree, error, [&](uint32_t n) {
+    const TexelTree::Node& node = tree[n];
+    if (node.isLeaf() && tree.texelOf(node) == own) return;
+    const float factor = formFactorOf(spot, texels, tree, node);
+    if (factor > 0.0f) visit(n, factor);
+  });
+}
+
+}  // namespace lamplighter
