@@ -10,6 +10,7 @@
 #include "editor/document/write_file.h"
 #include "renderer/bake/page_dilation.h"
 #include "renderer/bake/second_uvs.h"
+#include "renderer/base/atomic_file.h"
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"
 #include "renderer/frame/world.h"
@@ -57,6 +58,17 @@ uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobO
     add(s.seed);
     add(static_cast<uint64_t>(s.projection));
   }
+  if (o.light.method == BakeMethod::links) {
+    const TexelRadiosityOptions& t = o.light.texels;
+    for (const float number : {t.texel, t.linkError}) add(std::bit_cast<uint32_t>(number));
+    for (const int number : {t.map.resolution, t.bounces, o.light.surface.mask})
+      add(static_cast<uint64_t>(number));
+    add(static_cast<uint64_t>(t.order));
+    add(static_cast<uint64_t>(t.map.kind));
+    add(static_cast<uint64_t>(t.visibility));
+    add(t.memory);
+    add(t.seed);
+  }
   return key;
 }
 
@@ -82,6 +94,22 @@ std::vector<BakedTexel> find(const BakeTile& tile, const BakedLight& light, int 
 
 std::string pageName(const BakeJobOptions& o, int page) {
   return fmt::format("{}-light-{}.exr", o.name, page);
+}
+
+std::string visibilityName(const BakeJobOptions& o) { return o.name + "-visibility.bin"; }
+
+void warnOfSide(const char* what, float side, float wanted, float unit, BakeReport& report) {
+  if (side > wanted)
+    report.warnings.push_back(fmt::format(
+        "{} has texels of {:.3g} m: smaller ones do not fit into depth_memory", what, side * unit));
+}
+
+void writeVisibility(const Scene& scene, const RenderScene& render, const RayCaster& rays,
+                     const BakeJobOptions& o, BakeReport& report) {
+  const SurfaceVisibility visibility = findVisibility(render, rays, *o.visibility);
+  warnOfSide("visibility", visibility.side, o.visibility->texel, render.unit, report);
+  report.files.push_back(o.output / visibilityName(o));
+  writeWhole(report.files.back(), visibilityFile(scene, render, visibility));
 }
 
 // Throws InputError if tiles are missing.
@@ -123,6 +151,7 @@ void writeScene(const Scene& scene, const RenderScene& render, const LightMapAtl
   j["texCoord"] = 1;
   j["quantity"] = "irradiance, W/m2, linear Rec. 709; reflected radiance is albedo / pi times it";
   for (int i = 0; i < report.pages; ++i) j["pages"].push_back(pageName(o, i));
+  if (o.visibility) j["visibility"] = visibilityName(o);
   NodeId last = kNoNode;
   for (const ObjectChart& c : atlas.charts) {
     const NodeId id = render.objects[c.object].node;
@@ -165,6 +194,7 @@ BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress&
       parts.has(tile) ? void(++report.taken) : open.push_back(&tile);
     }
     const BakedLight light(render, *world.rays(), o.light);
+    warnOfSide("bounced light", light.texelSide(), o.light.texels.texel, render.unit, report);
     for (const BakeTile* tile : open) {
       parts.write(*tile, find(*tile, light, o.atlas.pageSize));
       ++report.found;
@@ -177,6 +207,7 @@ BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress&
   }
   if (o.shard > 0) return report;
   writePages(tiles, parts, o, report);
+  if (o.visibility) writeVisibility(scene, render, *world.rays(), o, report);
   writeScene(scene, render, atlas, o, report);
   if (!o.keepParts) parts.remove();
   report.isWhole = true;

@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "editor/bake/bake_layout.h"
 #include "renderer/bake/baked_light.h"
+#include "renderer/bake/visibility_file.h"
 
 namespace lamplighter {
 
@@ -17,6 +19,8 @@ struct BakeJobOptions {
   BakeLightOptions light;
   std::filesystem::path output;  // folder; created if it does not exist
   std::string name;              // prefix of the names of all files
+  // Also writes what texels of these options see (docs/reference/visibility.md).
+  std::optional<TexelRadiosityOptions> visibility;
   // Bakes only this shard of the tiles (1 … shards) and does not assemble the pages. 0: bakes all
   // tiles.
   int shard = 0, shards = 0;

@@ -22,6 +22,11 @@ namespace {
 
 constexpr int kCancelled = 130;  // as shells report Ctrl+C
 constexpr int kMostShards = 100000;
+// Places along a side of a flat light by which its shadows are found.
+constexpr int kMask = 32;
+// Of texels from which light is gathered: their side [m], and the largest form factor of groups
+// [%].
+constexpr float kGatheredTexel = 0.1f, kGatherError = 2.0f;
 // If standard error is not a terminal, prints a line after each tenth of the work.
 constexpr int kTenths = 10;
 
@@ -46,14 +51,17 @@ std::string timeText(double seconds) {
   return s >= 60 ? fmt::format("{} min {:02} s", s / 60, s % 60) : fmt::format("{} s", s);
 }
 
-BakeLightOptions lightOf(const BakeOptions& o) {
-  const MethodInfo& method = findMethod(o.method);
-  Settings settings = settingsOf(o, method);
+BakeLightOptions lightOf(const std::string& method, Settings settings) {
   // Exact soft shadows, and fewer rays.
-  if (o.method == "multi_mesh" && !settings.values().contains("mask"))
-    settings.set("mask", std::string("32"));
+  if (method == "multi_mesh" && !settings.values().contains("mask"))
+    settings.set("mask", std::to_string(kMask));
+  // Places near edges see single texels. Groups are seen by several of their texels.
+  if (method == "surface_shadow_maps" && !settings.has("texel"))
+    settings.set("texel", kGatheredTexel);
+  if (method == "surface_shadow_maps" && !settings.has("link_error"))
+    settings.set("link_error", kGatherError);
   BakeLightOptions light;
-  if (o.method == "reference") {
+  if (method == "reference") {
     const PathTracerParameters parameters = pathTracerParameters().read(settings);
     light.method = BakeMethod::reference;
     light.paths.bounces = parameters.bounces;
@@ -61,18 +69,28 @@ BakeLightOptions lightOf(const BakeOptions& o) {
     light.samples = parameters.samplesPerPixel;
     return light;
   }
-  // Those of multi_mesh have the same names.
+  // Those of the other methods have the same names.
   const ManyLightsParameters parameters = manyLightsParameters().read(settings);
   light.counts.total = parameters.vpls;
   light.counts.directShare = parameters.directShare;
   light.counts.bounces = parameters.bounces;
   light.counts.seed = static_cast<uint32_t>(parameters.seed);
   light.clampDistance = parameters.clampDistance;
-  if (o.method == "multi_mesh") {
+  if (method == "multi_mesh") {
     light.method = BakeMethod::meshes;
     light.surface = parameters.surfaceLight(parameters.bounces, parameters.seed);
   }
+  if (method == "surface_shadow_maps") {
+    light.method = BakeMethod::links;
+    light.surface.mask = kMask;
+    light.texels = parameters.radiosity(parameters.bounces, parameters.seed);
+  }
   return light;
+}
+
+// Of texels that see; those of the parameters that the method does not have are the defaults.
+TexelRadiosityOptions visibilityOf(const Settings& settings) {
+  return manyLightsParameters().read(settings).radiosity(0, 1);
 }
 
 // Shows how far the work is, and stops it by Ctrl+C. `parts`: what is counted.
@@ -158,10 +176,12 @@ void requireFolder(const std::filesystem::path& folder, const std::vector<std::s
 int bake(const BakeOptions& o, const Frontend& frontend) {
   BakeJobOptions maps;
   maps.atlas = o.atlas;
-  maps.light = lightOf(o);
+  const Settings settings = settingsOf(o, findMethod(o.method));
+  maps.light = lightOf(o.method, settings);
   if (!o.shard.empty()) std::tie(maps.shard, maps.shards) = parseShard(o.shard);
   maps.mergeOnly = o.merge;
   maps.keepParts = o.keepParts;
+  if (o.visibility) maps.visibility = visibilityOf(settings);
   maps.output = o.output;
   maps.name = std::filesystem::path(o.scene).stem().string();
   VertexColourOptions colours{maps.light, o.vertices, std::nullopt, maps.output, maps.name};

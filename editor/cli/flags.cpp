@@ -208,8 +208,9 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->required();
   sub.add_option("--method", o->method,
                  "many_lights: its settled light samples, with exact shadows; multi_mesh: smooth "
-                 "bounced light from elements of surface; or the reference")
-      ->check(CLI::IsMember({"many_lights", "multi_mesh", "reference"}))
+                 "bounced light from elements of surface; surface_shadow_maps: bounced light "
+                 "gathered at each texel; or the reference")
+      ->check(CLI::IsMember({"many_lights", "multi_mesh", "surface_shadow_maps", "reference"}))
       ->capture_default_str();
   sub.add_option("--density", o->atlas.texelsPerMetre, "Texels a metre")
       ->type_name("X")
@@ -226,11 +227,16 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_flag("--merge", o->merge, "Put the pages together from parts that are all there")
       ->excludes("--shard");
   sub.add_flag("--keep-parts", o->keepParts, "Leave the parts when the pages are there");
+  sub.add_flag("--visibility", o->visibility,
+               "Also write what the surface sees, for other programs: "
+               "docs/reference/visibility.md")
+      ->excludes("--shard");
   CLI::Option* colours = sub.add_flag(
       "--vertex-colours", o->vertexColours,
       "Instead of light maps: light in the vertex colours of the copy, whose triangles "
       "are divided where light varies");
-  for (const char* ofMaps : {"--density", "--page", "--shard", "--merge", "--keep-parts"})
+  for (const char* ofMaps :
+       {"--density", "--page", "--shard", "--merge", "--keep-parts", "--visibility"})
     colours->excludes(ofMaps);
   sub.add_option("--contrast", o->vertices.contrast,
                  "Edges are divided where interpolated vertex colours are off by more than this "

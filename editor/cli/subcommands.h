@@ -85,7 +85,7 @@ struct BakeOptions : MethodFlags {
   std::string method = "many_lights";
   AtlasOptions atlas;
   std::string shard;  // "i/n", or empty
-  bool merge = false, keepParts = false;
+  bool merge = false, keepParts = false, visibility = false;
   bool vertexColours = false;
   VertexLightOptions vertices;    // of vertex colours
   std::string exposure = "auto";  // EV or "auto"; of vertex colours

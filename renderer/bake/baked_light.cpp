@@ -1,21 +1,14 @@
 #include "renderer/bake/baked_light.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "renderer/base/low_discrepancy.h"
-#include "renderer/base/random.h"
+#include "renderer/bake/inside.h"
 #include "renderer/sampling/light_gains.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
-namespace {
-
-// Number of rays for testing whether a point is inside an object: then most of them hit back faces.
-constexpr uint32_t kInsideRays = 16;
-constexpr uint32_t kInsideSet = 0x7d;
-
-}  // namespace
 
 BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
                        const BakeLightOptions& options)
@@ -25,28 +18,31 @@ BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
     vpls_ = LightPaths::generate(scene, rays, lights_, options.counts).vpls;
     applyGains(lights_, vpls_);
   }
-  if (options.method == BakeMethod::meshes) {
+  if (options.method == BakeMethod::meshes || options.method == BakeMethod::links)
     direct_.emplace(
         scene, rays, lights_,
         DirectLight::Options{options.counts.total, options.surface.mask, options.counts.seed});
+  if (options.method == BakeMethod::meshes) {
     RenderSceneChanges changes;
     changes.rebuilt = true;
     // All rays in one call; another one where that finds samples inside of objects.
     while (!surface_.isDone())
       surface_.update(scene, std::exchange(changes, {}), rays, options.surface);
   }
+  if (options.method == BakeMethod::links) gathered_.emplace(scene, rays, *direct_, options.texels);
 }
 
 vec3 BakedLight::irradiance(std::span<const BakePoint> points, uint32_t texel) const {
-  std::vector<std::pair<const BakePoint*, ReceivingPlace>> places;
+  Places places;
   for (const BakePoint& p : points) {
     const ReceivingPlace at = placeOf(p);
-    if (!isBuried(at, texel)) places.emplace_back(&p, at);
+    if (!isInside(scene_, rays_, at, texel)) places.emplace_back(&p, at);
   }
   if (places.empty()) return vec3(-1.0f);
   vec3 sum(0.0f);
   if (options_.method != BakeMethod::reference) {
     for (const auto& [point, at] : places) sum += ofPlace(*point, at);
+    if (options_.method == BakeMethod::links) sum += gathered(places);
     return sum / static_cast<float>(places.size());
   }
   // Paths are distributed over the points in turn.
@@ -68,26 +64,11 @@ ReceivingPlace BakedLight::placeOf(const BakePoint& point) const {
           scene_.objects[point.object].leftOutBy};
 }
 
-bool BakedLight::isBuried(const ReceivingPlace& at, uint32_t texel) const {
-  const Frame frame(at.normal);
-  const vec3 from = at.position + rayEpsilon(at.position) * at.normal;
-  uint32_t inside = 0;
-  const uint32_t scramble = hash4(texel, 0, 0, kInsideSet);
-  for (uint32_t i = 0; i < kInsideRays; ++i) {
-    const vec3 direction = frame.toWorld(sampleCosineHemisphere(sobol2(i, scramble)));
-    const Hit hit = rays_.intersect({from, 0.0f, direction});
-    // Double-sided surfaces such as a curtain have no inside.
-    if (!hit || !scene_.backIsUnseen(hit.object)) continue;
-    const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
-    inside += glm::dot(s.geometricNormal, direction) > 0.0f;
-  }
-  return inside > kInsideRays / 2;
-}
-
 vec3 BakedLight::ofPlace(const BakePoint& point, const ReceivingPlace& at) const {
   if (options_.method == BakeMethod::settled)
     return sampledLight(rays_, vpls_, at, options_.clampDistance).visible;
-  return direct_->irradiance(at) + bounced(point, at.position);
+  const vec3 direct = direct_->irradiance(at);
+  return options_.method == BakeMethod::meshes ? direct + bounced(point, at.position) : direct;
 }
 
 vec3 BakedLight::bounced(const BakePoint& point, const vec3& position) const {
@@ -98,6 +79,32 @@ vec3 BakedLight::bounced(const BakePoint& point, const vec3& position) const {
   vec3 sum(0.0f);
   for (int k = 0; k < 3; ++k)
     sum += on.weights[k] * surface_.values()[on.values[static_cast<size_t>(k)]];
+  return sum;
+}
+
+// The sum over the points. Bounced light is smooth within a texel: points on one triangle have that
+// of their middle.
+vec3 BakedLight::gathered(const Places& places) const {
+  vec3 sum(0.0f);
+  for (size_t first = 0; first < places.size(); ++first) {
+    const auto isOnSame = [&](const Places::value_type& other) {
+      return other.first->object == places[first].first->object &&
+             other.first->triangle == places[first].first->triangle;
+    };
+    const auto begin = places.begin(), here = begin + static_cast<ptrdiff_t>(first);
+    if (std::any_of(begin, here, isOnSame)) continue;
+    BakePoint middle = *places[first].first;
+    float count = 1.0f;
+    for (auto other = here + 1; other != places.end(); ++other) {
+      if (!isOnSame(*other)) continue;
+      middle.u += other->first->u;
+      middle.v += other->first->v;
+      count += 1.0f;
+    }
+    middle.u /= count;
+    middle.v /= count;
+    sum += count * gathered_->irradiance(middle.object, middle.triangle, placeOf(middle));
+  }
   return sum;
 }
 

@@ -1,5 +1,5 @@
 // Irradiance at surface points: from the settled VPLs with exact shadows, from the path-traced
-// reference, or from light that is kept on surfaces.
+// reference, or from light that is kept on surfaces: interpolated, or gathered.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include "renderer/bake/bake_points.h"
 #include "renderer/bake/direct_light.h"
+#include "renderer/bake/gathered_light.h"
 #include "renderer/methods/path_tracer/path_tracer.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/vpl_set.h"
@@ -16,16 +17,18 @@
 namespace lamplighter {
 
 // `meshes`: bounced light is interpolated between the corners of elements of surface, and direct
-// light is found at the point (DirectLight).
-enum class BakeMethod : uint8_t { settled, reference, meshes };
+// light is found at the point (DirectLight). `links`: the same direct light, and the last bounce
+// from texels of the surface is gathered at the point (GatheredLight).
+enum class BakeMethod : uint8_t { settled, reference, meshes, links };
 
 struct BakeLightOptions {
   BakeMethod method = BakeMethod::settled;
-  VplCounts counts;             // settled; meshes: the total, of direct light, and the seed
-  float clampDistance = 0.5f;   // settled: bound on 1/d² of a VPL [m]
-  PathTracerOptions paths;      // reference
-  int samples = 64;             // reference: paths per texel
-  SurfaceLightOptions surface;  // meshes
+  VplCounts counts;              // settled; meshes, links: the total, of direct light, and the seed
+  float clampDistance = 0.5f;    // settled: bound on 1/d² of a VPL [m]
+  PathTracerOptions paths;       // reference
+  int samples = 64;              // reference: paths per texel
+  SurfaceLightOptions surface;   // meshes; links: the mask of flat lights alone
+  TexelRadiosityOptions texels;  // links
 };
 
 class BakedLight {
@@ -41,19 +44,24 @@ class BakedLight {
   // on the arguments.
   vec3 irradiance(std::span<const BakePoint> points, uint32_t texel) const;
 
+  // Side of the texels from which light is gathered, as memory allows [m]; 0: of another method.
+  float texelSide() const { return gathered_ ? gathered_->side() : 0.0f; }
+
  private:
+  using Places = std::vector<std::pair<const BakePoint*, ReceivingPlace>>;
   ReceivingPlace placeOf(const BakePoint& point) const;
-  bool isBuried(const ReceivingPlace& at, uint32_t texel) const;
   vec3 ofPlace(const BakePoint& point, const ReceivingPlace& at) const;
   vec3 bounced(const BakePoint& point, const vec3& position) const;
+  vec3 gathered(const Places& places) const;
 
   const RenderScene& scene_;
   const RayCaster& rays_;
   BakeLightOptions options_;
   LightSet lights_;
-  std::vector<SceneVpl> vpls_;         // settled
-  std::optional<DirectLight> direct_;  // meshes
-  SurfaceLight surface_;               // meshes
+  std::vector<SceneVpl> vpls_;             // settled
+  std::optional<DirectLight> direct_;      // meshes, links
+  SurfaceLight surface_;                   // meshes
+  std::optional<GatheredLight> gathered_;  // links
 };
 
 }  // namespace lamplighter

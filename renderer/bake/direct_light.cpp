@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
 #include "renderer/sampling/light_gains.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/sampling/path_tracing.h"

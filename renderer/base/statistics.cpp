@@ -10,7 +10,7 @@ namespace {
 std::string grouped(double value) {
   std::string text = fmt::format("{:.0f}", value);
   const size_t sign = value < 0.0 ? 1 : 0;
-  for (size_t end = text.size(); end > sign + 3; end -= 3) text.insert(end - 3, ",");
+  for (size_t end = text.size(); end > sign + 3; end -= 3) text.insert(end - 3, 1, ',');
   return text;
 }
 

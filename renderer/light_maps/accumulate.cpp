@@ -26,7 +26,7 @@ struct Packet {
 // In the coordinates of the plane, most terms are equal for all texels. Structure of arrays.
 class PlaneLights {
  public:
-  PlaneLights(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+  PlaneLights(std::span<const SummedLight* const> lights, const TexelPlaces& places,
               float clampDistance);
 
   // Adds to several packets at once, which share the loads of a light.
@@ -53,7 +53,8 @@ class PlaneLights {
     kValues
   };
 
-  void setEight(std::span<const TexelLight* const> lights, size_t first, const TexelPlaces& places);
+  void setEight(std::span<const SummedLight* const> lights, size_t first,
+                const TexelPlaces& places);
   void divide(size_t count);
   HWY_INLINE Floats weigh(const float* light, const Packet& at) const;
 
@@ -65,7 +66,7 @@ class PlaneLights {
   Run bright_;
 };
 
-PlaneLights::PlaneLights(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+PlaneLights::PlaneLights(std::span<const SummedLight* const> lights, const TexelPlaces& places,
                          float clampDistance)
     : clamp2_(clampDistance * clampDistance),
       values_((lights.size() + kLanes - 1) / kLanes * kLanes * kValues) {
@@ -73,12 +74,12 @@ PlaneLights::PlaneLights(std::span<const TexelLight* const> lights, const TexelP
   divide(lights.size());
 }
 
-void PlaneLights::setEight(std::span<const TexelLight* const> lights, size_t first,
+void PlaneLights::setEight(std::span<const SummedLight* const> lights, size_t first,
                            const TexelPlaces& places) {
   enum From : size_t { kPosition, kAxis = 3, kIntensity = 6, kFrom = 9 };
   alignas(32) float from[kFrom][kLanes];
   for (size_t lane = 0; lane < kLanes; ++lane) {
-    const TexelLight& light = *lights[std::min(first + lane, lights.size() - 1)];
+    const SummedLight& light = *lights[std::min(first + lane, lights.size() - 1)];
     for (int c = 0; c < 3; ++c) {
       const auto i = static_cast<size_t>(c);
       from[kPosition + i][lane] = light.position[c] - places.origin[c];
@@ -192,7 +193,7 @@ void PlaneLights::add(const Packet* at, PacketSums* sums) const {
 }
 
 // The irradiance of any other light [m⁻² × its intensity; directional: 1].
-Floats weigh(const TexelLight& light, const TexelPlaces& places, const Packet& at) {
+Floats weigh(const SummedLight& light, const TexelPlaces& places, const Packet& at) {
   const Floats zero = hn::Zero(kTag);
   const vec3 v = places.origin - light.position;
   // Distance from the light along an axis.
@@ -221,7 +222,7 @@ Floats weigh(const TexelLight& light, const TexelPlaces& places, const Packet& a
 
 }  // namespace
 
-TexelLight::TexelLight(const shared::Vpl& vpl, float sign)
+SummedLight::SummedLight(const shared::Vpl& vpl, float sign)
     : kind(vpl.position.w),
       position(vpl.position),
       axis(vpl.normal),
@@ -231,11 +232,11 @@ TexelLight::TexelLight(const shared::Vpl& vpl, float sign)
       coneScale(vpl.normal.w),
       side(vpl.tangent.w) {}
 
-void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+void accumulate(std::span<const SummedLight* const> lights, const TexelPlaces& places,
                 float clampDistance, double* r, double* g, double* b) {
-  std::vector<const TexelLight*> cosine, others;
+  std::vector<const SummedLight*> cosine, others;
   cosine.reserve(lights.size());
-  for (const TexelLight* light : lights)
+  for (const SummedLight* light : lights)
     (light->kind == shared::kVplCosine ? cosine : others).push_back(light);
   const PlaneLights over(cosine, places, clampDistance);
   // Processes all lights in one loop, so that the sums stay in registers.
@@ -252,7 +253,7 @@ void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& pl
     auto sums = all([&](size_t i) { return PacketSums{Sums(r + i), Sums(g + i), Sums(b + i)}; });
     over.add<kPackets>(at.data(), sums.data());
     for (size_t p = 0; p < kPackets; ++p) {
-      for (const TexelLight* light : others) {
+      for (const SummedLight* light : others) {
         const vec3& i = light->intensity;
         sums[p].addRounded(weigh(*light, places, at[p]), i.r, i.g, i.b);
       }

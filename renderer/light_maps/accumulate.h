@@ -16,8 +16,8 @@ struct TexelPlaces {
 };
 
 // A light to add to the texels (sign 1) or to subtract from them (sign −1).
-struct TexelLight {
-  TexelLight(const shared::Vpl& vpl, float sign);
+struct SummedLight {
+  SummedLight(const shared::Vpl& vpl, float sign);
   float kind;               // Vpl::position.w
   vec3 position, axis;      // axis: Vpl::normal
   vec3 tangent, bitangent;  // axes of the square of a directional light
@@ -32,7 +32,7 @@ inline constexpr double kIrradianceUnit = 1.0 / 67108864.0;  // 2⁻²⁶
 // Adds the unshadowed irradiance of the lights, each rounded to a multiple of kIrradianceUnit; a
 // contribution must be below 2²⁴ W/m². r, g, b: one sum per texel. Uses the formulas of vplGeometry
 // in vpl_shading.h. The bits of the sums do not depend on the order of the lights.
-void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+void accumulate(std::span<const SummedLight* const> lights, const TexelPlaces& places,
                 float clampDistance, double* r, double* g, double* b);
 
 // Converts the sums to what is read: rgb is E [W/m²]. The number of texels is a multiple of eight.

@@ -218,7 +218,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
         jobs.push_back({object, t});
     }
   }
-  std::vector<TexelLight> taken, added;  // by slot
+  std::vector<SummedLight> taken, added;  // by slot
   if (!jobs.empty()) {
     for (const shared::Vpl& vpl : lights_) taken.emplace_back(vpl, -1.0f);
     for (const shared::Vpl& vpl : bySlot) added.emplace_back(vpl, 1.0f);
@@ -243,7 +243,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       for (std::vector<uint64_t>* bits : {&o.held, &o.refused})
         std::fill_n(bits->begin() + static_cast<ptrdiff_t>(job.tile * words_), words_, 0);
     }
-    std::vector<const TexelLight*> changes;
+    std::vector<const SummedLight*> changes;
     std::vector<uint64_t> newMappable(words_, 0);
     newOnes.find(place, newMappable);
     for (size_t w = 0; w < words_; ++w) {

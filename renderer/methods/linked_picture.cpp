@@ -9,7 +9,7 @@ namespace lamplighter {
 namespace {
 
 // Rays of a frame: some 50 ms on two cores.
-constexpr float kRaysAFrame = 300'000.0f;
+constexpr float kLinkRaysAFrame = 300'000.0f;
 constexpr float kMostPace = 8.0f;
 
 }  // namespace
@@ -18,7 +18,7 @@ void LinkedPicture::update(const FrameInputs& in, const TexelRadiosityOptions& o
                            float pace) {
   isUsed_ = true;
   light_.update(in.scene, in.services, options,
-                static_cast<uint64_t>(kRaysAFrame * std::min(pace, kMostPace)) + 1);
+                static_cast<uint64_t>(kLinkRaysAFrame * std::min(pace, kMostPace)) + 1);
 }
 
 std::map<std::string, std::function<ViewPicture()>> LinkedPicture::views() const {

@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "renderer/surface_depths/link_bound.h"
+#include "renderer/surface_depths/link_walk.h"
 
 namespace lamplighter {
 void FormerLinks::compareWith(const TexelTree& tree, TexelMoves moves) {

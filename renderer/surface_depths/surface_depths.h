@@ -53,13 +53,17 @@ class SurfaceDepths {
   size_t uncompressed() const { return texels_ * layout_.pixels(); }
   size_t bytes() const;
 
- private:
   // The texels from `first` on; the segments of pixel q are [starts[q], starts[q + 1]).
   struct Run {
     uint32_t first = 0, count = 0;
     std::vector<uint32_t> starts;
     DepthSegments segments;
   };
+  std::span<const Run> runs() const { return runs_; }
+  // Of a depth, per metre.
+  float steps() const { return steps_; }
+
+ private:
   size_t blocks() const;  // of pixels
   size_t units() const { return runs_.size() * blocks(); }
   uint64_t trace(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,

@@ -48,7 +48,9 @@ std::vector<TexelRadiosity::Sides> sidesOf(const RenderScene& scene) {
   return out;
 }
 
-float sideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
+}  // namespace
+
+float texelSideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
   const size_t bytes =
       options.map.pixels() * kSegmentBytes / kTexelsASegment + kLinksATexel * sizeof(TexelLink);
   const double most = std::max(1.0, static_cast<double>(options.memory / bytes));
@@ -57,8 +59,6 @@ float sideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
   const double steps = std::ceil(std::log(factor) / std::log(static_cast<double>(kSideStep)));
   return options.texel * static_cast<float>(std::pow(static_cast<double>(kSideStep), steps));
 }
-
-}  // namespace
 
 // Finds the texels anew if surfaces are at other places. Returns whether that is so. While surfaces
 // move, the old texels stay: those of a moved object go with it.
@@ -87,7 +87,7 @@ bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
   isStale_ = false;
   ++texelVersion_;
   takeSides(scene);
-  const float side = sideOf(scene, options_);
+  const float side = texelSideOf(scene, options_);
   const bool isAnew =
       isOther || side != counts_.texel || options_.visibility == TexelVisibility::stored;
   counts_.texel = side;

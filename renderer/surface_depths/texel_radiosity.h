@@ -32,6 +32,8 @@ struct TexelRadiosityOptions {
   uint32_t seed = 1;
   bool operator==(const TexelRadiosityOptions&) const = default;
 };
+// The side of texels that memory allows [m].
+float texelSideOf(const RenderScene& scene, const TexelRadiosityOptions& options);
 
 class TexelRadiosity {
  public:

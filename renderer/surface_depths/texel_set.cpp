@@ -143,11 +143,20 @@ SurfaceTexel texelOf(const RenderScene& scene, uint32_t object, const ObjectAtla
   const std::array<vec3, 2> axes{turn * placed.chart.tangent, turn * placed.chart.bitangent};
   for (size_t k = 0; k < 2; ++k)
     texel.half[k] = axes[k] - (slope != 0.0f ? glm::dot(axes[k], n) / slope : 0.0f) * up;
+  // At the border of a chart a texel may be narrow.
+  vec2 low = places.front().at, high = low;
+  for (const Covered& c : places) {
+    low = glm::min(low, c.at);
+    high = glm::max(high, c.at);
+  }
+  const vec2 extent = static_cast<float>(kPlaces) * (high - low) + 1.0f;  // in places
+  if (extent.x * extent.y < static_cast<float>(places.size()) + 0.5f)
+    for (int k = 0; k < 2; ++k) texel.half[static_cast<size_t>(k)] *= extent[k];
   return texel;
 }
 
-// Gives the square of a texel its area.
-void sizeSquare(SurfaceTexel& texel) {
+// Gives the rectangle of a texel its area.
+void sizeRectangle(SurfaceTexel& texel) {
   const float unit = glm::length(glm::cross(texel.half[0], texel.half[1]));
   const float side = unit > 0.0f ? 0.5f * std::sqrt(texel.area / unit) : 0.0f;
   for (vec3& h : texel.half) h *= side;
@@ -179,7 +188,7 @@ std::vector<SurfaceTexel> texelsOf(const RenderScene& scene, uint32_t object,
     for (size_t i = first; i < texels.size(); ++i) {
       texels[i].chart = chart;
       texels[i].area *= cover.area / covered;
-      sizeSquare(texels[i]);
+      sizeRectangle(texels[i]);
     }
   }
   return texels;
@@ -247,6 +256,13 @@ uint64_t TexelSet::findBuried(const RenderScene& scene, const RayCaster& rays) {
     isBuried_[t] = kBuriedShare * inside > kBuriedRays ? 1 : 0;
   });
   return texels_.size() * static_cast<uint64_t>(kBuriedRays);
+}
+
+uint32_t TexelSet::texelAt(uint32_t object, bool isBack, const vec2& texels) const {
+  const Part& part = parts_[2 * object + (isBack ? 1 : 0)];
+  const auto x = static_cast<int>(std::floor(texels.x)), y = static_cast<int>(std::floor(texels.y));
+  if (x < 0 || y < 0 || x >= part.size.x || y >= part.size.y) return kNone;
+  return part.texelAt[static_cast<size_t>(y * part.size.x + x)];
 }
 
 TexelBlend TexelSet::blendAt(uint32_t object, bool isBack, const vec2& texels) const {

@@ -20,10 +20,10 @@ struct SurfaceTexel {
   // Places that are spread over its area, for the mean of what varies on the surface.
   std::array<SurfacePlace, 4> spread;
   SurfaceSpot spot;          // where light arrives
-  std::array<vec3, 2> half;  // half the sides of a square in its plane, with its area
+  std::array<vec3, 2> half;  // half the sides of a rectangle in its plane, with its area
   float area = 0.0f;         // [m²]
 
-  // A square for it, counter-clockwise as seen from the front.
+  // That rectangle, a square inside of a chart; counter-clockwise as seen from the front.
   std::array<vec3, 4> square() const {
     const vec3& p = spot.position;
     return {p - half[0] - half[1], p + half[0] - half[1], p + half[0] + half[1],
@@ -73,6 +73,8 @@ class TexelSet {
   uint64_t findBuried(const RenderScene& scene, const RayCaster& rays);
   bool isBuried(size_t texel) const { return !isBuried_.empty() && isBuried_[texel] != 0; }
 
+  // At a point of a side of an object, given in texels of its rectangle; kNone if there is none.
+  uint32_t texelAt(uint32_t object, bool isBack, const vec2& texels) const;
   // Bilinear at a point of a side of an object, given in texels of its rectangle. Texels that the
   // surface does not have are left out, and buried ones if there are others.
   TexelBlend blendAt(uint32_t object, bool isBack, const vec2& texels) const;

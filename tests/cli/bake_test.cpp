@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "docs/reference/visibility_reader.h"
 #include "tests/support/folders.h"
 #include "tests/support/process.h"
 
@@ -47,6 +48,19 @@ TEST_F(BakeCommand, BakesFromLightOnSurfaces) {
   EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
 }
 
+TEST_F(BakeCommand, GathersLightFromTexelsAndWritesVisibility) {
+  const ProcessResult r = run({"--method", "surface_shadow_maps", "--visibility", "--set",
+                               "texel=0.5", "--set", "depth_resolution=16"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.err.find("warning"), std::string::npos) << r.err;
+  EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
+  const fs::path visibility = folder_ / "cornell_style-visibility.bin";
+  EXPECT_NE(r.out.find(visibility.string()), std::string::npos) << r.out;
+  const VisibilityReader reader(visibility.string());
+  EXPECT_GT(reader.texels.size(), 50u);
+  EXPECT_FALSE(reader.nodes.empty());
+}
+
 TEST_F(BakeCommand, WritesVertexColours) {
   const std::vector<std::string> command{
       "bake",     kScene,       "-o",    folder_.string(), "--vertex-colours",
@@ -61,6 +75,7 @@ TEST_F(BakeCommand, WritesVertexColours) {
                                               {"--contrast", "0"},
                                               {"--shortest-edge", "-1"},
                                               {"--shard", "1/2"},
+                                              {"--visibility"},
                                               {"--density", "4"}}) {
     std::vector<std::string> all = command;
     all.insert(all.end(), bad.begin(), bad.end());
@@ -89,13 +104,17 @@ TEST_F(BakeCommand, AShardWritesOnlyItsPart) {
 }
 
 TEST_F(BakeCommand, RefusesInvalidOptionsInOneLine) {
-  for (const std::vector<std::string>& bad : {std::vector<std::string>{"--shard", "0/2"},
-                                              {"--shard", "3/2"},
-                                              {"--shard", "two"},
-                                              {"--density", "0"},
-                                              {"--page", "7"},
-                                              {"--method", "magic"},
-                                              {"--shard", "1/2", "--merge"}}) {
+  for (const std::vector<std::string>& bad :
+       {std::vector<std::string>{"--shard", "0/2"},
+        {"--shard", "3/2"},
+        {"--shard", "two"},
+        {"--density", "0"},
+        {"--page", "7"},
+        {"--method", "magic"},
+        {"--method", "surface_shadow_maps", "--set", "mask=3"},
+        {"--method", "surface_shadow_maps", "--set", "link_visibility=some"},
+        {"--visibility", "--shard", "1/2"},
+        {"--shard", "1/2", "--merge"}}) {
     const ProcessResult r = run(bad);
     EXPECT_EQ(r.code, 2) << bad[0];
     EXPECT_EQ(lines(r.err), 1) << r.err;

@@ -1,6 +1,7 @@
 // Baking to files: at once, in shards, and resumed after a cancellation.
 #include "editor/bake/bake_job.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"
+#include "renderer/base/threads.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -128,6 +130,59 @@ TEST_F(BakeJob, MergedShardsOfMeshesEqualTheWholeBakeBitForBit) {
   other.shards = 2;
   other.shard = 1;
   EXPECT_EQ(bake(scene_, other, {}).taken, 0);
+}
+
+TEST_F(BakeJob, MergedShardsOfGatheredLightAndVisibilityEqualTheWholeBakeBitForBit) {
+  const auto ofLinks = [&](const std::string& name) {
+    BakeJobOptions o = options(name);
+    o.atlas.texelsPerMetre = 8.0f;
+    o.light.method = BakeMethod::links;
+    o.light.surface.mask = 32;
+    o.light.texels.texel = 0.5f;
+    o.light.texels.map = {DepthMapKind::octahedral, 16};
+    o.light.texels.visibility = TexelVisibility::rays;
+    o.visibility = o.light.texels;
+    return o;
+  };
+  {
+    const ThreadLimit one(1);
+    const BakeReport whole = bake(scene_, ofLinks("whole"), {});
+    EXPECT_TRUE(whole.isWhole);
+    EXPECT_EQ(std::ranges::count(whole.files, folder_ / "whole" / "room-visibility.bin"), 1);
+  }
+  for (const int shard : {2, 1}) {
+    BakeJobOptions part = ofLinks("parts");
+    part.shards = 2;
+    part.shard = shard;
+    bake(scene_, part, {});
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "parts" / "room-visibility.bin"));
+  // Another error of links, or visibility, is another bake; more files are not.
+  for (const bool isFiner : {true, false}) {
+    BakeJobOptions other = ofLinks("parts");
+    isFiner ? void(other.light.texels.linkError = 0.002f)
+            : void(other.light.texels.visibility = TexelVisibility::stored);
+    other.shards = 2;
+    other.shard = 1;
+    EXPECT_EQ(bake(scene_, other, [](int, int) { return false; }).taken, 0);
+  }
+  BakeJobOptions merge = ofLinks("parts");
+  merge.mergeOnly = true;
+  EXPECT_EQ(bake(scene_, merge, {}).found, 0);
+  EXPECT_EQ(filesOf("whole"), filesOf("parts"));
+  EXPECT_NE(bytesOf(folder_ / "whole" / "room-light.json")
+                .find("\"visibility\": \"room-visibility.bin\""),
+            std::string::npos);
+}
+
+TEST_F(BakeJob, SaysWhenTexelsOfVisibilityAreLargerThanWanted) {
+  BakeJobOptions o = options("coarse");
+  o.light.counts.total = 1;
+  o.visibility = TexelRadiosityOptions();
+  o.visibility->memory = size_t{1} << 20;
+  const BakeReport report = bake(scene_, o, {});
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("visibility has texels of"), std::string::npos);
 }
 
 TEST_F(BakeJob, TilesOfAnotherSceneAreNotReused) {

@@ -54,6 +54,17 @@ BakeLightOptions meshes(int bounces, int mask = 32) {
   return o;
 }
 
+BakeLightOptions links(int bounces) {
+  BakeLightOptions o;
+  o.method = BakeMethod::links;
+  o.counts.total = 1024;
+  o.surface.mask = 32;
+  o.texels.map = {DepthMapKind::octahedral, 64};
+  o.texels.visibility = TexelVisibility::rays;
+  o.texels.bounces = bounces;
+  return o;
+}
+
 // A point below the centre of a rectangle light: E = π L F.
 TEST(BakedLight, IsTheFormFactorUnderARectangle) {
   Scene scene;
@@ -70,6 +81,7 @@ TEST(BakedLight, IsTheFormFactorUnderARectangle) {
   EXPECT_NEAR(baked.at(place, settled(0)).b, expected / 3.0f, 0.01f * expected);
   for (const int mask : {0, 32})
     EXPECT_NEAR(baked.at(place, meshes(0, mask)).r, expected, 2e-3f * expected) << mask;
+  EXPECT_NEAR(baked.at(place, links(0)).r, expected, 2e-3f * expected);
 }
 
 // Half of a square light is behind a wall that ends above the place.
@@ -120,6 +132,7 @@ TEST(BakedLight, OfAnEvenSkyIsPiTimesItsRadiance) {
   EXPECT_NEAR(baked.at(vec3(1, 0, 1), reference(2)).r, 2.0f * kPi, 0.05f);
   EXPECT_NEAR(baked.at(vec3(1, 0, 1), settled(2)).r, 2.0f * kPi, 0.15f);
   EXPECT_NEAR(baked.at(vec3(1, 0, 1), meshes(2)).r, 2.0f * kPi, 0.15f);
+  EXPECT_NEAR(baked.at(vec3(1, 0, 1), links(2)).r, 2.0f * kPi, 0.15f);
 }
 
 // A furnace: a closed room of one albedo ρ that emits L everywhere has E = π L (1 + ρ + … + ρ^n)
@@ -138,6 +151,11 @@ TEST(BakedLight, CountsItsBounces) {
     const vec3 smooth = BakedLight(baked.render, rays, meshes(bounces))
                             .irradiance(std::span(baked.points).subspan(200, 1), 3);
     EXPECT_NEAR(smooth.g, expected, 0.01f * expected) << bounces;
+    const BakedLight gathered(baked.render, rays, links(bounces));
+    for (size_t i = 0; i < baked.points.size(); i += 53) {
+      const vec3 here = gathered.irradiance(std::span(baked.points).subspan(i, 1), 3);
+      EXPECT_NEAR(here.g, expected, 0.015f * expected) << bounces << ' ' << i;
+    }
   }
 }
 
@@ -155,7 +173,47 @@ TEST(BakedLight, AllMethodsAgreeInAShadowedRoom) {
     const float a = baked.at(place, reference(2)).g;
     EXPECT_NEAR(baked.at(place, settled(2, 8192)).g, a, 0.08f * a);
     EXPECT_NEAR(baked.at(place, meshes(2)).g, a, 0.05f * a);
+    EXPECT_NEAR(baked.at(place, links(2)).g, a, 0.05f * a);
   }
+}
+
+// Over all texels of a room with boxes, against many paths.
+TEST(BakedLight, GatheredIsNearerToThePathTracerThanInterpolated) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(0.7f));
+  const int red = test::addMaterial(scene, vec3(0.8f, 0.2f, 0.1f));
+  test::addMesh(scene, test::roomMesh(vec3(4, 3, 4), white), vec3(0, 1.5f, 0));
+  test::addMesh(scene, test::boxMesh(vec3(1), red), vec3(0.7f, 0.5f, -0.5f));
+  test::addMesh(scene, test::boxMesh(vec3(0.6f, 1.6f, 0.6f), white), vec3(-0.9f, 0.8f, 0.2f));
+  test::addRectangleLight(scene, vec3(0, 2.8f, 0), vec2(1), vec3(8));
+  const Baked baked(scene, 3.0f);
+  const RayCaster rays(baked.render);
+  const BakedLight truth(baked.render, rays, reference(3));
+  BakeLightOptions fine = links(3);
+  fine.texels.texel = 0.1f;
+  fine.texels.linkError = 0.02f;
+  const BakedLight gathered(baked.render, rays, fine), interpolated(baked.render, rays, meshes(3));
+  double mean = 0.0, ofGathered = 0.0, ofInterpolated = 0.0;
+  size_t count = 0;
+  for (size_t i = 0; i < baked.points.size(); i += 7) {
+    const auto point = std::span(baked.points).subspan(i, 1);
+    const auto texel = static_cast<uint32_t>(i);
+    const vec3 expected = truth.irradiance(point, texel);
+    if (expected.g < 0.0f) continue;
+    ++count;
+    mean += static_cast<double>(expected.g);
+    const auto squareOf = [&](const BakedLight& light) {
+      return std::pow(static_cast<double>(light.irradiance(point, texel).g - expected.g), 2.0);
+    };
+    ofGathered += squareOf(gathered);
+    ofInterpolated += squareOf(interpolated);
+  }
+  const auto n = static_cast<double>(count);
+  const double error = std::sqrt(ofGathered / n) / (mean / n);
+  RecordProperty("gathered", std::to_string(error));
+  RecordProperty("interpolated", std::to_string(std::sqrt(ofInterpolated / n) / (mean / n)));
+  EXPECT_LT(error, 0.025);
+  EXPECT_LT(ofGathered, ofInterpolated);
 }
 
 // Texels below a box on the floor are marked as unknown (negative); texels beside it are lit.

@@ -101,7 +101,7 @@ TEST(Accumulate, EqualsTheSharedDefinitionUpToRounding) {
   int lit = 0;
   for (const shared::Vpl& vpl : vpls) {
     std::vector<double> r(kCount), g(kCount), b(kCount);
-    const TexelLight light(vpl, 1.0f);
+    const SummedLight light(vpl, 1.0f);
     std::vector lights{&light};
     accumulate(lights, line.places(), kClamp, r.data(), g.data(), b.data());
     for (size_t i = 0; i < kCount; ++i) {
@@ -120,8 +120,8 @@ TEST(Accumulate, SubtractingRestoresExactlyZero) {
   const Line line = lineOf64();
   std::vector<double> r(64), g(64), b(64);
   const TexelPlaces places = line.places();
-  std::vector<TexelLight> lights;
-  std::vector<const TexelLight*> added, subtracted;
+  std::vector<SummedLight> lights;
+  std::vector<const SummedLight*> added, subtracted;
   for (const float sign : {1.0f, -1.0f})
     for (const shared::Vpl& vpl : vpls) lights.emplace_back(vpl, sign);
   for (size_t i = 0; i < vpls.size(); ++i) {
@@ -148,16 +148,16 @@ TEST(Accumulate, TogetherHasTheSameBitsAsOneByOne) {
   using Sums = std::array<std::vector<double>, 3>;
   const std::vector<double> zero(64);
   Sums together{zero, zero, zero}, alone = together;
-  std::vector<TexelLight> lights;
-  std::vector<const TexelLight*> all;
+  std::vector<SummedLight> lights;
+  std::vector<const SummedLight*> all;
   for (const shared::Vpl& vpl : vpls) lights.emplace_back(vpl, 1.0f);
-  for (const TexelLight& light : lights) all.push_back(&light);
-  const auto add = [&](std::span<const TexelLight* const> some, Sums& to) {
+  for (const SummedLight& light : lights) all.push_back(&light);
+  const auto add = [&](std::span<const SummedLight* const> some, Sums& to) {
     accumulate(some, places, kClamp, to[0].data(), to[1].data(), to[2].data());
   };
   add(all, together);
   EXPECT_GT(*std::max_element(together[0].begin(), together[0].end()), 32.0);
-  for (const TexelLight& light : lights) {
+  for (const SummedLight& light : lights) {
     std::vector one{&light};
     add(one, alone);
   }

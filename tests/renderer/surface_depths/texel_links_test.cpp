@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/surface_depths/link_bound.h"
+#include "renderer/surface_depths/link_walk.h"
 #include "tests/renderer/surface_depths/lit_texels.h"
 
 namespace lamplighter {

@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/link_bound.h"
+#include "renderer/surface_depths/link_walk.h"
 
 #include <algorithm>
 #include <cmath>
