@@ -94,16 +94,17 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     gbufferIsCurrent = false;
     samples_.push_back(sampleOf(in, light, options, {}, {}));
   }
-  if (light.irradiance().empty()) {
-    shown_ = nullptr;
-    return picture;
-  }
   // The shifted ones when there are all.
   const bool isSmooth =
       changes.none() && antialias > 1 && static_cast<int>(samples_.size()) == antialias + 1;
   const std::span<const Sample> parts =
       isSmooth ? std::span(samples_).subspan(1) : std::span(samples_).first(1);
   const auto shownOf = static_cast<int>(parts.size());
+  if (light.irradiance().empty()) {
+    shownOf_ = shownOf;
+    shown_ = nullptr;
+    return picture;
+  }
   if (shown_ && picture == under_ && shownOf == shownOf_ && version_ == light.version())
     return shown_;
   version_ = light.version();

@@ -24,7 +24,7 @@ class AtlasPicture {
                                        bool& gbufferIsCurrent);
   // Whether the last picture has all shifted ones.
   bool isDone(int antialias) const {
-    return antialias <= 1 || static_cast<int>(samples_.size()) == antialias + 1;
+    return antialias <= 1 || (shownOf_ == antialias && framesLeft(antialias) == 0);
   }
   int framesLeft(int antialias) const {
     return antialias <= 1 ? 0 : antialias + 1 - static_cast<int>(samples_.size());

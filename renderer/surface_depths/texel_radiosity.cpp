@@ -77,8 +77,10 @@ bool TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
     return false;
   }
   if (!isStale_) {
+    if (moved_.empty()) return false;
     // Area lights alone moved: they block the light of others.
-    if (!moved_.empty()) light_.outdate(places_.movesTo(scene, texels_, moved_), false);
+    light_.outdate(places_.movesTo(scene, texels_, moved_), false);
+    places_ = PlacedTexels(scene, texels_);
     movedSinceLinks_.insert(moved_.begin(), moved_.end());
     moved_.clear();
     return false;

@@ -41,9 +41,13 @@ TEST_F(ViewDisplayTest, EveryViewHasAnAction) {
     // With transfer, light samples carry bounced light.
     const bool needsElements =
         std::ranges::find(info.needs, Capability::elements) != info.needs.end();
-    const uint64_t last = hash();
-    session_.runAction(needsElements ? "render.set prt=false" : "render.set prt=true");
-    if (hash() != last) ++edits;
+    for (const char* setting :
+         {needsElements ? "render.set prt=false" : "render.set prt=true",
+          needsElements ? "render.set indirect=meshes" : "render.set indirect=automatic"}) {
+      const uint64_t last = hash();
+      session_.runAction(setting);
+      if (hash() != last) ++edits;
+    }
     InputEvent event{EventKind::action};
     event.text = std::string("view.") + info.name;
     EXPECT_NE(lineText({3, event}).find(event.text), std::string::npos);

@@ -119,6 +119,19 @@ TEST(TexelRadiosity, ALampThatMovesLeavesTheLightOfAFreshStart) {
   EXPECT_EQ(floor.light.irradiance(), floor.fresh());
 }
 
+TEST(TexelRadiosity, ALampThatComesAndGoesLeavesTheLightOfBefore) {
+  LitFloor floor;
+  const std::vector<vec3> before = floor.light.irradiance();
+  // It blocks the light of the other one.
+  NodeId second = kNoNode;
+  floor.settle(floor.edited([&](Scene& s) {
+    second = test::addRectangleLight(s, vec3(0.0f, 2.0f, 0.0f), vec2(1.5f), vec3(5.0f));
+  }));
+  EXPECT_EQ(floor.light.irradiance(), floor.fresh());
+  floor.settle(floor.edited([&](Scene& s) { s.find(second)->visible = false; }));
+  EXPECT_EQ(floor.light.irradiance(), before);
+}
+
 TEST(TexelRadiosity, ObjectsThatComeAndGoLeaveTheLightOfAFreshStart) {
   LitFloor floor;
   floor.settle(floor.edited([&](Scene& s) { s.find(floor.boxes[1])->visible = false; }));
