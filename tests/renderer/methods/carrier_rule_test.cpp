@@ -1,0 +1,63 @@
+#include "renderer/methods/carrier_rule.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+using testing::HasSubstr;
+
+// A room of 96 m², 1,536 texels of 0.25 m.
+Scene room() {
+  Scene scene;
+  test::addMesh(scene, test::roomMesh(vec3(4.0f), test::addMaterial(scene, vec3(0.7f))));
+  test::addRectangleLight(scene, vec3(0.0f, 1.9f, 0.0f), vec2(1.0f), vec3(10.0f));
+  return scene;
+}
+
+CarrierChoice chosen(const Scene& scene, float texel = 0.25f) {
+  return carrierFor(test::renderSceneOf(scene), texel);
+}
+
+TEST(CarrierRule, LinksForRoomsOfLargeSurfaces) {
+  const CarrierChoice choice = chosen(room());
+  EXPECT_EQ(choice.carrier, BouncedCarrier::links);
+  EXPECT_THAT(choice.reason, HasSubstr("1536 texels"));
+}
+
+TEST(CarrierRule, MeshesUnderASky) {
+  Scene scene = room();
+  scene.sky = vec3(1.0f);
+  const CarrierChoice choice = chosen(scene);
+  EXPECT_EQ(choice.carrier, BouncedCarrier::meshes);
+  EXPECT_THAT(choice.reason, HasSubstr("sky"));
+}
+
+TEST(CarrierRule, MeshesWithGloss) {
+  Scene scene = room();
+  test::addMesh(scene, test::boxMesh(vec3(1.0f), test::addMaterial(scene, vec3(0.5f), 1.0f, 0.2f)));
+  const CarrierChoice choice = chosen(scene);
+  EXPECT_EQ(choice.carrier, BouncedCarrier::meshes);
+  EXPECT_THAT(choice.reason, HasSubstr("glossy"));
+}
+
+TEST(CarrierRule, MeshesWhereTrianglesAreFinerThanTexels) {
+  Scene scene = room();
+  // 2 · 30 · 60 triangles on 3 m².
+  test::addMesh(scene, test::sphereMesh(0.5f, 30, 0.0f, test::addMaterial(scene, vec3(0.5f))));
+  const CarrierChoice choice = chosen(scene);
+  EXPECT_EQ(choice.carrier, BouncedCarrier::meshes);
+  EXPECT_THAT(choice.reason, HasSubstr("finer"));
+}
+
+TEST(CarrierRule, MeshesWhereLinksWouldNeedManyTexels) {
+  const CarrierChoice choice = chosen(room(), 0.09f);
+  EXPECT_EQ(choice.carrier, BouncedCarrier::meshes);
+  EXPECT_THAT(choice.reason, HasSubstr("links would need"));
+}
+
+}  // namespace
+}  // namespace lamplighter
