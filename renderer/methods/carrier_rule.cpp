@@ -38,7 +38,7 @@ CarrierChoice carrierFor(const RenderScene& scene, float texel) {
   if (static_cast<double>(triangles) > texels)
     return meshes(fmt::format("{} triangles are finer than {:.0f} texels", triangles, texels));
   return {BouncedCarrier::links,
-          fmt::format("{:.0f} texels show all of its {} triangles", texels, triangles)};
+          fmt::format("{} triangles are coarser than {:.0f} texels", triangles, texels)};
 }
 
 }  // namespace lamplighter

@@ -7,6 +7,7 @@
 #include "renderer/surface_depths/link_walk.h"
 
 namespace lamplighter {
+
 void FormerLinks::compareWith(const TexelTree& tree, TexelMoves moves) {
   moves_ = std::move(moves);
   std::vector<uint8_t> isKept(tree_.order().size(), 0);  // by former texel
@@ -78,10 +79,10 @@ FormerLinks::OfTexel::Known FormerLinks::OfTexel::at(uint32_t n, const TexelTree
   // All segments to the node are within its radius of the one to its centre.
   const vec3 from = spot.rayOrigin();
   const Ray ray{from, 0.0f, node.centre - from, 1.0f};
-  const bool isApart = std::ranges::any_of(all_->moves_.boxes, [&](const Bounds& b) {
+  const bool mayBeBlocked = std::ranges::any_of(all_->moves_.boxes, [&](const Bounds& b) {
     return mayTouch(ray, {b.min - node.radius, b.max + node.radius});
   });
-  return isApart ? Known::apart : Known::unchanged;
+  return mayBeBlocked ? Known::ends : Known::links;
 }
 
 // Of the former nodes from `former` to before `end`.

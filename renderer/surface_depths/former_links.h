@@ -37,7 +37,7 @@ class FormerLinks {
   FormerLinks(TexelTree tree, LinkTable table, float error)
       : tree_(std::move(tree)), table_(std::move(table)), error_(error) {}
   bool empty() const { return table_.texels() == 0; }
-  size_t bytes() const { return table_.bytes(); }
+  size_t bytes() const { return table_.bytes() + tree_.bytes(); }
 
   // Compares with the present tree. See TexelMoves.
   void compareWith(const TexelTree& tree, TexelMoves moves);
@@ -47,11 +47,11 @@ class FormerLinks {
    public:
     enum class Known : uint8_t {
       nothing,
-      apart,     // links end at the same nodes; moved objects may be in between
-      unchanged  // nothing moved between the texel and the node
+      ends,  // links end at the same nodes, but moved objects may be in between
+      links  // nothing moved between the texel and the node: its links stay
     };
     Known at(uint32_t node, const TexelTree& tree, const SurfaceSpot& spot);
-    // Adds the links of an unchanged node and of those below.
+    // Adds the links of a node and of those below, where these are known.
     void append(uint32_t node, std::vector<TexelLink>& out) const;
     // Which tested texels were seen, of a node at which a link may end.
     uint32_t seen(uint32_t node) const;

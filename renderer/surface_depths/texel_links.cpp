@@ -66,7 +66,7 @@ void TexelLinks::goOn(const TexelSet& texels, const TexelTree& tree, const Visib
     for (uint32_t n = 0; n < tree.size();) {
       const TexelTree::Node& node = tree[n];
       const Known known = former.at(n, tree, spot);
-      if (known == Known::unchanged) {
+      if (known == Known::links) {
         former.append(n, found[i]);
         n = node.skip;
         continue;
@@ -81,14 +81,14 @@ void TexelLinks::goOn(const TexelSet& texels, const TexelTree& tree, const Visib
       if (largest <= 0.0f || (node.isLeaf() && tree.texelOf(node) == texel)) continue;
       const float factor = formFactorOf(spot, texels, tree, node);
       if (factor <= 0.0f) continue;
-      const uint32_t before = known == Known::apart ? former.seen(number) : 0;
+      const uint32_t before = known == Known::ends ? former.seen(number) : 0;
       uint32_t places = 0, seen = 0;
       forEachTested(tree, node, [&](uint32_t sender) {
         const uint32_t k = places++;
         const vec3& point = texels[sender].spot.position;
         const vec3 from = spot.rayOrigin();
         const bool isKept =
-            known == Known::apart && !former_.moves().meets({from, 0.0f, point - from, 1.0f});
+            known == Known::ends && !former_.moves().meets({from, 0.0f, point - from, 1.0f});
         const bool isSeen = isKept ? (before >> k & 1u) != 0 : sees(texel, point);
         seen |= isSeen ? 1u << k : 0u;
         ++(isKept ? kept : asked);

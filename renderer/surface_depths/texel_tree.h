@@ -32,6 +32,7 @@ class TexelTree {
   explicit TexelTree(const TexelSet& texels);
 
   size_t size() const { return nodes_.size(); }
+  size_t bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(uint32_t); }
   const Node& operator[](uint32_t node) const { return nodes_[node]; }
   // Texels by leaf.
   const std::vector<uint32_t>& order() const { return order_; }

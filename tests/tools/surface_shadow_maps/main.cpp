@@ -13,6 +13,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/surface_depths/surface_depths.h"
 #include "renderer/surface_depths/texel_links.h"
+#include "renderer/surface_depths/texel_sight.h"
 #include "tests/support/folders.h"
 #include "tests/support/shared_files.h"
 
@@ -58,16 +59,7 @@ struct Texels {
     return out;
   }
   bool seesByRay(uint32_t texel, const vec3& point) const {
-    const SurfaceSpot& spot = set[texel].spot;
-    const vec3 from = spot.rayOrigin(), d = point - from;
-    if (glm::dot(d, spot.geometricNormal) <= 0.0f) return false;
-    // Area lights do not count.
-    Ray ray{from, 0.0f, d, 1.0f - 1e-3f};
-    for (Hit hit = rays->intersect(ray); hit; hit = rays->intersect(ray)) {
-      if (!scene.objects[hit.object].isAreaLight) return false;
-      ray.tNear = hit.t + 1e-4f;
-    }
-    return true;
+    return lamplighter::seesByRay(scene, *rays, set[texel], point);
   }
   // A texel by its area. `u`: in [0, 1).
   uint32_t at(float u) const {
