@@ -6,6 +6,20 @@ Metres, Y up; Lambertian materials; lights are EXT_lights_area (radiance in inte
 import base64, json, math, os, struct
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+X, Y, Z = [1, 0, 0], [0, 1, 0], [0, 0, 1]
+
+
+def v(d, k):
+    return [c * k for c in d]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def unit(a):
+    length = math.sqrt(sum(c * c for c in a))
+    return [c / length for c in a]
 
 
 class Scene:
@@ -50,11 +64,10 @@ class Scene:
         p, n, i = [], [], []
         for c, u, v in quads:
             k = len(p)
-            cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-            length = math.sqrt(sum(x * x for x in cross))
+            normal = unit(cross(u, v))
             for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
                 p.append([c[j] + a * u[j] + b * v[j] for j in range(3)])
-                n.append([x / length for x in cross])
+                n.append(normal)
             i += [k, k + 1, k + 2, k, k + 2, k + 3]
         return self.node(name, mesh=self.mesh(name, p, n, i, material), **fields)
 
@@ -160,11 +173,6 @@ def knot(scene, name, material, p, q, radius, tube, around, along, **fields):
     def centre(t):
         r = radius * (1 + 0.4 * math.cos(q * t))
         return (r * math.cos(p * t), 0.4 * radius * math.sin(q * t), r * math.sin(p * t))
-
-    def unit(v):
-        l = math.sqrt(sum(c * c for c in v))
-        return [c / l for c in v]
-    cross = lambda a, b: [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     pos, nor, idx = [], [], []
     for i in range(along):
         t = 2 * math.pi * i / along
@@ -259,8 +267,6 @@ def default():
     plaster, stone = s.material("plaster", (0.74, 0.7, 0.63)), s.material("stone", (0.45, 0.43, 0.41))
     floor, wood = s.material("floor", (0.4, 0.3, 0.22)), s.material("wood", (0.36, 0.2, 0.1))
     teal, brick = s.material("teal", (0.1, 0.36, 0.38)), s.material("brick", (0.55, 0.2, 0.13))
-    X, Y, Z = [1, 0, 0], [0, 1, 0], [0, 0, 1]
-    v = lambda d, k: [c * k for c in d]
     # The hall, 8 x 3.4 x 7 m, with an alcove 2.6 m wide, 2.2 m deep and 2.4 m high in its back wall.
     s.quads("floor", [([-4, 0, 3.5], v(X, 8), v(Z, -7)), ([-1.3, 0, -3.5], v(X, 2.6), v(Z, -2.2))], floor)
     s.quads("ceiling", [([-4, 3.4, -3.5], v(X, 8), v(Z, 7))], plaster)
@@ -290,8 +296,6 @@ def narrow_gap():
     s = Scene()
     white, grey = s.material("white", (0.72, 0.71, 0.68)), s.material("grey", (0.55, 0.55, 0.57))
     red, blue = s.material("red", (0.62, 0.2, 0.15)), s.material("blue", (0.2, 0.32, 0.58))
-    X, Y, Z = [1, 0, 0], [0, 1, 0], [0, 0, 1]
-    v = lambda d, k: [c * k for c in d]
     # Both rooms are 4 m square and 3 m high; the lit one is left of the wall at x = 0, the dark one right.
     s.quads("floor", [([-4, 0, 2], v(X, 8), v(Z, -4))], white)
     s.quads("ceiling", [([-4, 3, -2], v(X, 8), v(Z, 4))], white)
@@ -328,8 +332,6 @@ def corridor():
     """A corridor that turns, and a lamp behind its corner: what the camera sees has bounced light alone."""
     s = Scene()
     white, blue = s.material("white", (0.75, 0.75, 0.75)), s.material("blue", (0.3, 0.4, 0.7))
-    X, Y, Z = [1, 0, 0], [0, 1, 0], [0, 0, 1]
-    v = lambda d, k: [c * k for c in d]
     # Two arms, 2 m wide and 3 m high: one along Z at x < -1, one along X at z < -1.
     for name, y, side in (("floor", 0, 1), ("ceiling", 3, -1)):
         s.quads(name, [([-3 if side > 0 else -1, y, 3], v(X, 2 * side), v(Z, -6)),
@@ -362,7 +364,135 @@ def door_ajar():
     s.write("door_ajar")
 
 
+def u_corridor():
+    """Figure 10 of the paper on view-adaptive imperfect shadow maps: a corridor in the shape of a U. The camera faces
+    the back of its right leg, the lamp is at the end of the left one: few points that the lamp lights are seen from
+    what the camera sees."""
+    s = Scene()
+    white, stone = s.material("white", (0.75, 0.74, 0.72)), s.material("stone", (0.6, 0.57, 0.52))
+    red, blue = s.material("red", (0.62, 0.16, 0.12)), s.material("blue", (0.2, 0.32, 0.6))
+    # 3 m wide and 2.7 m high: legs along Z at x < -1 and x > 1, joined at z < -3. Between them is solid wall.
+    h = 2.7
+    for name, y, side in (("floor", 0, 1), ("ceiling", h, -1)):
+        start = lambda x, width: x if side > 0 else x + width
+        s.quads(name, [([start(x, 3), y, 4.5], v(X, 3 * side), v(Z, -10.5)) for x in (-4, 1)]
+                + [([start(-1, 2), y, -3], v(X, 2 * side), v(Z, -3))], white)
+    s.quads("left wall", [([-4, 0, 4.5], v(Z, -10.5), v(Y, h))], white)
+    s.quads("right wall", [([4, 0, -6], v(Z, 10.5), v(Y, h))], blue)
+    s.quads("front wall", [([-4, 0, -6], v(X, 8), v(Y, h))], white)
+    s.quads("end of the left leg", [([-1, 0, 4.5], v(X, -3), v(Y, h))], red)
+    s.quads("end of the right leg", [([4, 0, 4.5], v(X, -3), v(Y, h))], white)
+    s.quads("inner walls", [([-1, 0, -3], v(Z, 7.5), v(Y, h)), ([1, 0, -3], v(X, -2), v(Y, h)),
+                            ([1, 0, 4.5], v(Z, -7.5), v(Y, h))], white)
+    for i, (x, z) in enumerate(((-2.5, -2.4), (1.9, -1.6), (3.1, -1.6), (2.3, 2.0))):
+        s.box("pillar %d" % (i + 1), (0.24, h, 0.24), stone, translation=[x, h / 2, z])
+    s.box("crate", (0.6, 0.6, 0.6), stone, translation=[3.3, 0.3, 3.2], rotation=turned((0, 1, 0), 25))
+    s.light("lamp", (1.4, 1.4), (420.0, 385.0, 330.0), [-2.5, h - 0.02, 3.3], DOWN)
+    s.camera("camera", (2.2, 1.6, -5.6), (2.6, 1.15, 3.0), 0.95)
+    s.camera("towards the turn", (3.4, 1.6, 4.1), (1.8, 1.2, -5.0), 0.95)
+    s.camera("lit leg", (-3.5, 1.6, -5.6), (-2.3, 1.2, 5.0), 0.95)
+    s.write("u_corridor")
+
+
+def skin(parts):
+    """Positions, smooth normals and indices of closed surfaces. A part is a list of rings; a ring has the same number
+    of points as the others of its part, or is one point."""
+    pos, nor, idx = [], [], []
+    for rings in parts:
+        first, triangles, starts = len(pos), [], []
+        for ring in rings:
+            starts.append(len(pos))
+            pos += [list(p) for p in ring]
+        nor += [[0.0, 0.0, 0.0] for _ in pos[first:]]
+        for i in range(len(rings) - 1):
+            n, m = len(rings[i]), len(rings[i + 1])
+            for j in range(max(n, m)):
+                a, b = starts[i] + j % n, starts[i] + (j + 1) % n
+                c, d = starts[i + 1] + j % m, starts[i + 1] + (j + 1) % m
+                triangles += [t for t in ((a, c, b), (b, c, d)) if len(set(t)) == 3]
+        volume = 0.0
+        for a, b, c in triangles:
+            face = cross([pos[b][k] - pos[a][k] for k in range(3)], [pos[c][k] - pos[a][k] for k in range(3)])
+            volume += sum(face[k] * (pos[a][k] - pos[first][k]) for k in range(3))
+            for t in (a, b, c):
+                for k in range(3):
+                    nor[t][k] += face[k]
+        out = 1 if volume > 0 else -1
+        nor[first:] = [unit([out * c for c in n]) for n in nor[first:]]
+        idx += [t[k] for t in triangles for k in ((0, 1, 2) if out > 0 else (0, 2, 1))]
+    return pos, nor, idx
+
+
+def lathe(profile, around, along, folds=0, depth=0.0, turn=0.0):
+    """Rings about y. profile(t): radius and height, t from 0 to 1; folds of a relative depth, turned by turn radians."""
+    def point(t, a):
+        r, y = profile(t)
+        r *= 1 + depth * (1 - t) * math.cos(folds * (a + turn * t))
+        return r * math.cos(a), y, r * math.sin(a)
+    around = [2 * math.pi * j / around for j in range(around)]
+    return [[point(t, a) for a in (around if profile(t)[0] > 1e-9 else (0,))]
+            for t in (i / along for i in range(along + 1))]
+
+
+def bent(path, radius, around, along, across=Z, closed=False):
+    """Rings of a tube along path(t), which nowhere goes along across; closed by end points, or joined to a loop."""
+    rings = []
+    for i in range(along + 1):
+        t = (i % along if closed else i) / along
+        c, d, e = path(t), path(t - 1e-3), path(t + 1e-3)
+        tangent = unit([e[k] - d[k] for k in range(3)])
+        side = unit(cross(tangent, across))
+        other = cross(side, tangent)
+        rings.append([[c[k] + radius(t) * (math.cos(a) * side[k] + math.sin(a) * other[k]) for k in range(3)]
+                      for a in (2 * math.pi * j / around for j in range(around))])
+    return rings if closed else [[path(0.0)], *rings, [path(1.0)]]
+
+
+def statue(scene, material, **fields):
+    """A robed figure 1.75 m tall, with raised arms, a staff, and a ring above its head."""
+    def smooth(knots):
+        def at(t):
+            x = t * (len(knots) - 1)
+            i = min(int(x), len(knots) - 2)
+            f = (1 - math.cos(math.pi * (x - i))) / 2
+            return tuple(p + (q - p) * f for p, q in zip(knots[i], knots[i + 1]))
+        return at
+    robe = smooth(((0, 0), (0.32, 0), (0.31, 0.12), (0.24, 0.55), (0.155, 0.95), (0.2, 1.2), (0.2, 1.32), (0.06, 1.4),
+                   (0, 1.42)))
+    head = lambda t: (0.1 * math.sin(math.pi * t) if 0 < t < 1 else 0.0, 1.52 - 0.135 * math.cos(math.pi * t))
+    mix = lambda points: lambda t: [sum(w * p[k] for w, p in zip(
+        ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3), points)) for k in range(3)]
+    arm = lambda t: 0.055 - 0.025 * t
+    circle = lambda t: [0.2 * math.cos(2 * math.pi * t), 1.74, 0.2 * math.sin(2 * math.pi * t)]
+    left = ((-0.15, 1.3, 0), (-0.5, 1.22, 0.1), (-0.42, 1.5, 0.25), (-0.5, 1.72, 0.2))
+    right = ((0.15, 1.3, 0), (0.48, 1.15, 0), (0.4, 1.0, 0.3), (0.45, 1.18, 0.32))
+    parts = [lathe(robe, 64, 56, 9, 0.16, 1.1), lathe(head, 24, 16),
+             bent(mix(left), arm, 14, 20), bent(mix(right), arm, 14, 20),
+             bent(lambda t: [0.45, 0.02 + 1.7 * t, 0.32], lambda t: 0.016, 10, 4),
+             bent(circle, lambda t: 0.014, 8, 40, Y, True)]
+    return scene.node("statue", mesh=scene.mesh("statue", *skin(parts), material), **fields)
+
+
+def corridor_statue():
+    """Figure 7 of the paper on view-adaptive imperfect shadow maps: a lamp is pointed at the wall at one end of a long
+    corridor; the statue that the camera looks at, near the other end, has bounced light alone."""
+    s = Scene()
+    white, grey = s.material("white", (0.76, 0.75, 0.72)), s.material("grey", (0.5, 0.5, 0.5))
+    s.room((3, 2.7, 16), s.material("floor", (0.5, 0.42, 0.34)), white, s.material("green", (0.25, 0.46, 0.28)), white,
+           s.material("blue", (0.3, 0.38, 0.6)), s.material("ochre", (0.72, 0.56, 0.3)))
+    # The lamp faces the wall at z = 8; nothing on its other side has its direct light.
+    s.box("lamp housing", (1.3, 0.5, 0.1), grey, translation=[0, 2.45, 5.94])
+    s.light("lamp", (1.2, 0.4), (900.0, 820.0, 690.0), [0, 2.45, 6.0], turned((0, 1, 0), 180))
+    s.box("plinth", (0.9, 0.1, 0.9), grey, translation=[0.1, 0.05, -6.2])
+    s.box("pedestal", (0.7, 0.4, 0.7), grey, translation=[0.1, 0.3, -6.2])
+    statue(s, s.material("marble", (0.78, 0.75, 0.7)), translation=[0.1, 0.5, -6.2], rotation=turned((0, 1, 0), -20))
+    s.camera("camera", (-0.75, 1.6, -2.6), (0.1, 1.25, -6.4), 0.9)
+    s.camera("behind the statue", (-1.1, 1.7, -7.6), (0.3, 1.3, 0.0), 0.95)
+    s.camera("corridor", (1.0, 1.7, 4.5), (-0.1, 1.2, -6.0), 0.9)
+    s.write("corridor_statue")
+
+
 if __name__ == "__main__":
     for make in (area_light_room, table_room, pillar_room, cornell_style, default, narrow_gap, close_light, corridor,
-                 door_ajar):
+                 door_ajar, u_corridor, corridor_statue):
         make()
