@@ -98,7 +98,8 @@ TEST_P(GlScenes, LookTheSameOnBothBackends) {
 INSTANTIATE_TEST_SUITE_P(
     Levels, GlScenes,
     testing::Values(Case{"default.gltf", 0.0025}, Case{"cornell_style.gltf", 0.0005},
-                    Case{"pillar_room.gltf", 0.002}, Case{"cornell-box/cornell-box.glb", 0.0005},
+                    Case{"pillar_room.gltf", 0.002}, Case{"u_corridor.gltf", 0.0005},
+                    Case{"corridor_statue.gltf", 0.0005}, Case{"cornell-box/cornell-box.glb", 0.0005},
                     Case{"living-room/living-room.gltf", 0.002},
                     Case{"modern-hall/modern-hall.glb", 0.0005},
                     Case{"kenney-fps-level/kenney-fps-level.gltf", 0.0005},
