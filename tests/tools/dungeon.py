@@ -50,8 +50,8 @@ FLOOR = 0.05  # the top of floor pieces
 # Groups of pieces that stand together: piece, x, y, z, turn in degrees.
 GROUPS = {
     "long table": [("table_long_decorated_A", 0, 0, 0, 0)]
-                  + [("chair", s * 1.35, 0, z, s * 90) for s in (-1, 1) for z in (-1.4, -0.5, 0.5, 1.4)],
-    "small table": [("table_small_decorated_A", 0, 0, 0, 0), ("chair", 0, 0, 1.0, 0), ("chair", 0, 0, -1.0, 180)],
+                  + [("chair", s * 1.35, 0, z, 90 - s * 90) for s in (-1, 1) for z in (-1.4, -0.5, 0.5, 1.4)],
+    "small table": [("table_small_decorated_A", 0, 0, 0, 0), ("chair", 0, 0, 1.0, -90), ("chair", 0, 0, -1.0, 90)],
     "tavern table": [("table_medium_tablecloth", 0, 0, 0, 0), ("plate_food_A", 0.3, 1.0, -0.3, 20),
                      ("bottle_A_green", -0.5, 1.0, 0.3, 0), ("bottle_A_green", -0.2, 1.0, 0.6, 70)]
                     + [("stool", 1.5 * x, 0, 1.5 * z, 0) for x, z in ((1, 0), (-1, 0), (0, 1), (0, -1))],
