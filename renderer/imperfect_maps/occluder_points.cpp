@@ -9,6 +9,7 @@
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
 #include "renderer/sampling/emitters/emitter_cells.h"
+#include "renderer/scene/surface.h"
 
 namespace lamplighter {
 namespace {
@@ -25,6 +26,12 @@ void checkPointOptions(const OccluderPointOptions& options) {
   if (options.points == 0 || options.points % map != 0)
     throw InputError("occluder points", std::to_string(options.points) + " points in all",
                      "use a multiple of the points of a map");
+}
+
+// Whether the alpha mask lets rays pass there.
+bool isInHole(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v) {
+  const Material& m = scene.materials[static_cast<size_t>(scene.objects[object].material)];
+  return m.alphaMode == AlphaMode::mask && alphaAt(scene, object, triangle, u, v) < m.alphaCutoff;
 }
 
 struct PlaceInGroup {
@@ -74,7 +81,8 @@ bool OccluderPoints::update(const RenderScene& scene, const RenderSceneChanges& 
   } else if (hasOtherSurfaces) {
     follow(scene, since);
   }
-  if (isFresh || hasOtherSurfaces || hasOtherPositions) {
+  // A material may have another alpha mask.
+  if (isFresh || hasOtherSurfaces || hasOtherPositions || since.materials) {
     importance_.update(scene, groups_, viewPositions_, lightPositions_, options.importance);
     isCurrent_.fill(false);
     objectAreas_.resize(groups_.objects());
@@ -135,16 +143,26 @@ void OccluderPoints::follow(const RenderScene& scene, const RenderSceneChanges& 
   });
 }
 
+// Points lie in the order of the distribution: points that are near each other in memory are near
+// each other in space. Of the 2ᵏ points of a part, exactly one has its first coordinate in each
+// 2⁻ᵏ.
 void OccluderPoints::drawEighth(const RenderScene& scene, uint32_t eighth) {
-  const uint32_t part = options_.pointsPerMap / kEighths, step = std::min(part, kPointsAStep);
-  const uint32_t maps = options_.points / options_.pointsPerMap, steps = part / step;
-  tbb::parallel_for(uint32_t{0}, maps * steps, [&](uint32_t i) {
-    draw(scene, i / steps * options_.pointsPerMap + eighth * part + i % steps * step, step);
+  const uint32_t part = options_.pointsPerMap / kEighths;
+  tbb::parallel_for(uint32_t{0}, options_.points / options_.pointsPerMap, [&](uint32_t map) {
+    const uint32_t first = map * options_.pointsPerMap + eighth * part;
+    std::vector<Draw> draws(part);
+    for (uint32_t j = first; j < first + part; ++j) {
+      const vec2 random = sobol2Ordered(j, options_.importance.seed);
+      draws[static_cast<uint32_t>(random.x * static_cast<float>(part))] = {j, random};
+    }
+    for (uint32_t i = 0; i < part; i += kPointsAStep)
+      draw(scene, first + i, std::span(draws).subspan(i, std::min(kPointsAStep, part - i)));
   });
 }
 
 // Step by step for all points, so that the waits for memory of different points overlap.
-void OccluderPoints::draw(const RenderScene& scene, uint32_t first, uint32_t count) {
+void OccluderPoints::draw(const RenderScene& scene, uint32_t first, std::span<const Draw> draws) {
+  const auto count = static_cast<uint32_t>(draws.size());
   if (importance_.empty()) {
     std::fill_n(arrays_.area.begin() + first, count, 0.0f);
     return;
@@ -153,13 +171,11 @@ void OccluderPoints::draw(const RenderScene& scene, uint32_t first, uint32_t cou
   const auto perMap = static_cast<double>(options_.pointsPerMap);
   std::array<OccluderImportance::Choice, kPointsAStep> choices;
   for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t j = first + i;
-    const vec2 random = sobol2Ordered(j, seed);
-    arrays_.v[j] = random.y;
     // The 24 bits of a float are too few for both the choice of a group among many and a place in
     // it. Random bits below them keep the strata.
-    const double fine = 0x1p-24 * static_cast<double>(toUnitFloat(hash4(j, seed, kFineSet, 0)));
-    choices[i] = importance_.at(static_cast<double>(random.x) + fine);
+    const double fine =
+        0x1p-24 * static_cast<double>(toUnitFloat(hash4(draws[i].index, seed, kFineSet, 0)));
+    choices[i] = importance_.at(static_cast<double>(draws[i].random.x) + fine);
   }
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t j = first + i;
@@ -171,11 +187,15 @@ void OccluderPoints::draw(const RenderScene& scene, uint32_t first, uint32_t cou
     const PlaceInGroup at =
         placeIn(groups_.trianglesOf(group), static_cast<float>(choices[i].within * area));
     arrays_.triangle[j] = at.triangle;
-    const vec2 weights = sampleTriangle({at.within, arrays_.v[j]});
+    const vec2 weights = sampleTriangle({at.within, draws[i].random.y});
     arrays_.u[j] = weights.x;
     arrays_.v[j] = weights.y;
   }
-  for (uint32_t j = first; j < first + count; ++j) place(scene, j);
+  for (uint32_t j = first; j < first + count; ++j) {
+    place(scene, j);
+    if (isInHole(scene, arrays_.object[j], arrays_.triangle[j], arrays_.u[j], arrays_.v[j]))
+      arrays_.area[j] = 0.0f;
+  }
 }
 
 void OccluderPoints::place(const RenderScene& scene, uint32_t point) {

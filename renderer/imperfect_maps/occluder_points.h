@@ -40,15 +40,17 @@ struct OccluderPointArrays {
   LaneFloats px, py, pz;
   LaneFloats nx, ny, nz;  // unit; on the front (counter-clockwise) side of the triangle
   // The area that the point stands for if pointsPerMap points are used: the reciprocal of their
-  // number and of the density of points by area. 0: there is no such point now.
+  // number and of the density of points by area. 0: there is no such point now, or it lies in a
+  // hole of an alpha mask.
   LaneFloats area;
   std::vector<uint32_t> object, triangle;  // index into RenderScene::objects; within the object
   std::vector<float> u, v;                 // weights of the second and third corner
 };
 
-// A pool of points. Block b is the points from b·pointsPerMap on and is for one map. Any aligned
-// power of two of consecutive points is stratified by the distribution of OccluderImportance and
-// within its groups: a block, an eighth of it, and its first points for a coarser map.
+// A pool of points. Block b is the points from b·pointsPerMap on and is for one map. A block, each
+// eighth of it and every 2ᵏ-th point of an eighth are stratified by the distribution of
+// OccluderImportance and within its groups. The points of an eighth lie in the order of the groups,
+// so that points that are near each other in memory are near each other in space.
 //
 // Each point is a function of its index, the seed, the scene and the positions. After these
 // changed, each update draws an eighth of each block anew: the points from e/8 to (e + 1)/8 of the
@@ -103,7 +105,12 @@ class OccluderPoints {
   void follow(const RenderScene& scene, const RenderSceneChanges& changes);
   bool takePositions(std::span<const vec3> view, std::span<const vec3> lights);
   void drawEighth(const RenderScene& scene, uint32_t eighth);
-  void draw(const RenderScene& scene, uint32_t first, uint32_t count);
+  // A point of the sequence: its index, and its place in [0, 1)².
+  struct Draw {
+    uint32_t index = 0;
+    vec2 random{0.0f};
+  };
+  void draw(const RenderScene& scene, uint32_t first, std::span<const Draw> draws);
   void place(const RenderScene& scene, uint32_t point);
 };
 

@@ -5,6 +5,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/methods/ambient_occlusion/ambient_occlusion.h"
+#include "renderer/methods/imperfect_shadow_maps/imperfect_shadow_maps.h"
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/methods/multi_mesh/multi_mesh.h"
 #include "renderer/methods/path_tracer/reference_method.h"
@@ -14,8 +15,9 @@ namespace lamplighter {
 namespace {
 
 std::deque<MethodInfo>& list() {
-  static std::deque<MethodInfo> all{manyLightsInfo(), multiMeshInfo(), surfaceShadowMapsInfo(),
-                                    ambientOcclusionInfo(), referenceInfo()};
+  static std::deque<MethodInfo> all{manyLightsInfo(),        multiMeshInfo(),
+                                    surfaceShadowMapsInfo(), imperfectShadowMapsInfo(),
+                                    ambientOcclusionInfo(),  referenceInfo()};
   return all;
 }
 

@@ -1,0 +1,179 @@
+#include "renderer/imperfect_maps/interleaved_light.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/backends/cpu/irradiance/simd_light.h"
+
+namespace lamplighter {
+namespace {
+
+using cpu::kLanes;
+using Wide3 = cpu::Vector3;
+
+// Pixels in packets of eight, by quantity, coordinate and lane.
+struct alignas(32) MapPacket {
+  float position[3][kLanes], shading[3][kLanes], geometric[3][kLanes];
+  float sum[3][kLanes];
+};
+
+Wide3 load(const float (&from)[3][kLanes]) {
+  return {hn::Load(kTag, from[0]), hn::Load(kTag, from[1]), hn::Load(kTag, from[2])};
+}
+
+// Adds a light on a surface, with its map, to the sums of the packets.
+void addLight(const cpu::LightRecord& record, const cpu::SumConstants& constants,
+              std::span<MapPacket> packets) {
+  const cpu::SimdLight light(record, false, constants);
+  const cpu::SimdConstants c(constants, record.resolution);
+  const Floats8 zero = hn::Zero(kTag);
+  for (MapPacket& packet : packets) {
+    const Wide3 v = load(packet.position) - light.position;
+    const Wide3 geometric = load(packet.geometric);
+    const Floats8 z = dotFused(v, light.normal);
+    const Floats8 s = hn::Neg(dotFused(v, load(packet.shading)));
+    const Floats8 facing = hn::Neg(dotFused(v, geometric));
+    auto reached = hn::And(hn::Gt(z, zero), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
+    if (hn::AllFalse(kTag, reached)) continue;
+    Wide3 turned{zero, zero, zero};
+    const auto occluded = cpu::hemisphereOccluded(
+        light, c, v, z,
+        [&]() -> const Wide3& {
+          turned = cpu::inFrameOf(light, geometric);
+          return turned;
+        },
+        facing);
+    reached = hn::AndNot(occluded, reached);
+    const Floats8 d2 = dotFused(v, v);
+    const Floats8 weight = hn::IfThenElseZero(
+        reached, hn::Div(hn::Mul(s, z), hn::Mul(d2, hn::Max(d2, c.clampDistance2))));
+    const auto add = [&](float* to, Floats8 intensity) {
+      hn::Store(hn::MulAdd(weight, intensity, hn::Load(kTag, to)), kTag, to);
+    };
+    add(packet.sum[0], light.units.x);
+    add(packet.sum[1], light.units.y);
+    add(packet.sum[2], light.units.z);
+  }
+}
+
+void take(const cpu::GBuffer& g, size_t from, MapPacket& packet, int lane) {
+  const float* const in[9] = {&g.px[from], &g.py[from], &g.pz[from], &g.sx[from], &g.sy[from],
+                              &g.sz[from], &g.gx[from], &g.gy[from], &g.gz[from]};
+  for (int k = 0; k < 3; ++k) {
+    packet.position[k][lane] = *in[k];
+    packet.shading[k][lane] = *in[3 + k];
+    packet.geometric[k][lane] = *in[6 + k];
+    packet.sum[k][lane] = 0.0f;
+  }
+}
+
+cpu::SumConstants constantsOf(const InterleavedOptions& options) {
+  cpu::SumConstants out;
+  out.clampDistance2 = options.clampDistance * options.clampDistance;
+  out.bias = options.shadowBias;
+  return out;
+}
+
+}  // namespace
+
+OccluderSpan OccluderPool::of(size_t light) const {
+  if (points.count == 0 || pointsPerMap == 0) return points;
+  const size_t blocks = std::max<size_t>(points.count / pointsPerMap, 1);
+  const size_t first = light % blocks * pointsPerMap;
+  OccluderSpan out = points;
+  for (const float** p : {&out.x, &out.y, &out.z, &out.nx, &out.ny, &out.nz, &out.area})
+    *p += first;
+  out.count = std::min(pointsPerMap, points.count - first);
+  return out;
+}
+
+LightRange LightRange::ofClass(size_t count, int classes, int c) {
+  const auto all = static_cast<size_t>(classes), own = static_cast<size_t>(c);
+  return {count * own / all, count * (own + 1) / all};
+}
+
+Image sumInterleaved(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+                     const OccluderPool& pool, const InterleavedOptions& options) {
+  const int width = gbuffer.width(), height = gbuffer.height(), side = options.side;
+  Image out(width, height);
+  const cpu::GBuffer& g = gbuffer.packets();
+  struct Scratch {
+    explicit Scratch(const ImperfectMapOptions& map) : maps(map) {}
+    ImperfectMap maps;
+    std::vector<MapPacket> packets;
+    std::vector<size_t> pixels;
+  };
+  tbb::enumerable_thread_specific<Scratch> scratch([&] { return Scratch(options.map); });
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, options.classes(), 1),
+      [&](const tbb::blocked_range<int>& range) {
+        Scratch& own = scratch.local();
+        for (int c = range.begin(); c < range.end(); ++c) {
+          own.pixels.clear();
+          for (int y = c / side; y < height; y += side)
+            for (int x = c % side; x < width; x += side)
+              if (gbuffer.isHit(x, y))
+                own.pixels.push_back(static_cast<size_t>(y) * static_cast<size_t>(width) +
+                                     static_cast<size_t>(x));
+          own.packets.assign((own.pixels.size() + kLanes - 1) / kLanes, MapPacket{});
+          for (size_t i = 0; i < own.pixels.size(); ++i) {
+            const auto x = static_cast<int>(own.pixels[i] % static_cast<size_t>(width));
+            const auto y = static_cast<int>(own.pixels[i] / static_cast<size_t>(width));
+            take(g, g.index(x, y), own.packets[i / kLanes], static_cast<int>(i % kLanes));
+          }
+          const LightRange mine = LightRange::ofClass(lights.size(), options.classes(), c);
+          for (size_t k = mine.first; k < mine.last; ++k) {
+            const std::span<const float> map = own.maps.render(lights[k], pool.of(k));
+            addLight(cpu::makeLightRecord(lights[k], map.data(), options.map.resolution),
+                     constantsOf(options), own.packets);
+          }
+          if (mine.first == mine.last) continue;
+          const float scale =
+              static_cast<float>(lights.size()) / static_cast<float>(mine.last - mine.first);
+          for (size_t i = 0; i < own.pixels.size(); ++i) {
+            const MapPacket& packet = own.packets[i / kLanes];
+            for (int k = 0; k < 3; ++k)
+              out.pixels[own.pixels[i]][k] = scale * packet.sum[k][i % kLanes];
+          }
+        }
+      },
+      tbb::simple_partitioner());
+  return out;
+}
+
+std::vector<float> imperfectMaps(std::span<const shared::Vpl> lights, size_t first,
+                                 const OccluderPool& pool, const ImperfectMapOptions& options) {
+  const auto side = static_cast<size_t>(options.resolution);
+  std::vector<float> maps(lights.size() * side * side);
+  tbb::enumerable_thread_specific<ImperfectMap> scratch([&] { return ImperfectMap(options); });
+  tbb::parallel_for(size_t{0}, lights.size(), [&](size_t k) {
+    std::ranges::copy(scratch.local().render(lights[k], pool.of(first + k)),
+                      maps.begin() + static_cast<ptrdiff_t>(k * side * side));
+  });
+  return maps;
+}
+
+void addLights(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+               std::span<const float> maps, int resolution, const InterleavedOptions& options,
+               Image& sum) {
+  const size_t texels = static_cast<size_t>(resolution) * static_cast<size_t>(resolution);
+  const cpu::GBuffer& g = gbuffer.packets();
+  tbb::parallel_for(0, gbuffer.height(), [&](int y) {
+    std::vector<MapPacket> packets(static_cast<size_t>((gbuffer.width() + kLanes - 1) / kLanes),
+                                   MapPacket{});
+    for (int x = 0; x < gbuffer.width(); ++x)
+      if (gbuffer.isHit(x, y))
+        take(g, g.index(x, y), packets[static_cast<size_t>(x / kLanes)], x % kLanes);
+    for (size_t k = 0; k < lights.size(); ++k)
+      addLight(cpu::makeLightRecord(lights[k], &maps[k * texels], resolution), constantsOf(options),
+               packets);
+    for (int x = 0; x < gbuffer.width(); ++x)
+      for (int i = 0; i < 3; ++i)
+        sum.at(x, y)[i] += packets[static_cast<size_t>(x / kLanes)].sum[i][x % kLanes];
+  });
+}
+
+}  // namespace lamplighter

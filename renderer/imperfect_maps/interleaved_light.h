@@ -1,0 +1,58 @@
+// The light of many samples with imperfect shadow maps at the pixels of a view (paper 2, section
+// 6.2; Keller and Heidrich, "Interleaved Sampling", 2001). Samples are divided into classes; each
+// pixel takes those of one class, and a blur spreads them. At rest, all pixels take all classes one
+// after the other: the exact sum.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/backends/gbuffer_view.h"
+#include "renderer/image/image.h"
+#include "renderer/imperfect_maps/imperfect_map.h"
+
+namespace lamplighter {
+
+// Points for many maps: aligned blocks of pointsPerMap, which maps take in turns.
+struct OccluderPool {
+  OccluderSpan points;
+  size_t pointsPerMap = 8192;
+  OccluderSpan of(size_t light) const;
+};
+
+struct InterleavedOptions {
+  ImperfectMapOptions map;
+  int side = 8;                // of a square of pixels with one class each
+  float clampDistance = 0.5f;  // [m]
+  float shadowBias = 0.002f;   // share of the distance
+  int classes() const { return side * side; }
+  bool operator==(const InterleavedOptions&) const = default;
+};
+
+// The lights of a class: [first, last) of `count`.
+struct LightRange {
+  size_t first = 0, last = 0;
+  static LightRange ofClass(size_t count, int classes, int c);
+};
+
+// Irradiance of each pixel [W/m²] by the lights of its class, as if they were all. Pixel (x, y) has
+// the class (x mod side) + side · (y mod side).
+Image sumInterleaved(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+                     const OccluderPool& pool, const InterleavedOptions& options);
+
+// Imperfect maps of some lights, one after the other. `first`: index of the first light, which
+// selects its points.
+std::vector<float> imperfectMaps(std::span<const shared::Vpl> lights, size_t first,
+                                 const OccluderPool& pool, const ImperfectMapOptions& options);
+
+// Adds the irradiance by all lights to `sum`, at all pixels. `maps`: of the lights, one after the
+// other, `resolution` texels a side.
+void addLights(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+               std::span<const float> maps, int resolution, const InterleavedOptions& options,
+               Image& sum);
+
+// The mean over the side² pixels about each pixel that lie on the same surface (paper 2, section
+// 6.3), in two passes. A constant stays as it is.
+Image blurredClasses(const GBufferView& gbuffer, const Image& irradiance, int side);
+
+}  // namespace lamplighter

@@ -1,0 +1,41 @@
+// Chooses light samples among the texels of a reflective map (paper 2, sections 4.1 and 6.5).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "renderer/imperfect_maps/reflective_map.h"
+#include "renderer/scene/camera.h"
+
+namespace lamplighter {
+
+struct LightChoiceOptions {
+  int count = 1024;
+  // Share of the choice that follows the flux of texels instead of their importance, which leaves
+  // out what stands between. It bounds the brightness of a sample.
+  float defence = 0.1f;
+  uint32_t seed = 1;
+  // Samples lie between texels: means of their places, where these are close to each other in the
+  // picture. Null: at the texels.
+  const View* between = nullptr;
+};
+
+struct ChosenLights {
+  std::vector<SceneVpl> lights;  // intensity I/(N·p)
+  std::vector<uint32_t> texels;  // of each light
+  float defended = 0.0f;         // share of all flux of texels without importance, which only
+                                 // the defence chooses
+};
+
+// N lights by one two-dimensional (0, 2)-net: a column by the sums of columns, then a row by its
+// running sum. So aligned blocks of 2ᵏ lights are evenly distributed, too. Their mean over seeds is
+// the light of all texels. A texel may be chosen several times.
+ChosenLights chooseLights(const ReflectiveMap& map, std::span<const float> importance,
+                          const LightChoiceOptions& options);
+
+// The same light with each texel that was chosen several times as one sample, in the order of the
+// first choices. Not for samples between texels.
+std::vector<SceneVpl> mergedLights(const ChosenLights& chosen);
+
+}  // namespace lamplighter

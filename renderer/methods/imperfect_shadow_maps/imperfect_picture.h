@@ -1,0 +1,100 @@
+// Bounced light by many samples with imperfect shadow maps, added to a picture.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "renderer/imperfect_maps/bidirectional_importance.h"
+#include "renderer/imperfect_maps/light_choice.h"
+#include "renderer/imperfect_maps/occluder_points.h"
+#include "renderer/imperfect_maps/rest_maps.h"
+#include "renderer/methods/gi_method.h"
+#include "renderer/methods/imperfect_shadow_maps/parameters.h"
+#include "renderer/methods/many_lights/bias_compensation.h"
+#include "renderer/surface_light/pixels/pixel_reflectance.h"
+
+namespace lamplighter {
+
+// Called when a stage of stages.h ends; the next one begins.
+using EndStage = std::function<void(const StageSpec&)>;
+
+class ImperfectPicture {
+ public:
+  // To be called with each frame. Follows the scene and the view.
+  void update(const FrameInputs& in, const ImperfectParameters& parameters,
+              const EndStage& endStage);
+  // The direct light of a frame.
+  struct Direct {
+    std::shared_ptr<RadianceImage> picture;
+    bool isSettled = false;
+    std::vector<SceneVpl> lights;  // that light the surfaces
+    bool* gbufferIsCurrent;        // whether the backend has that of the view without a shift
+  };
+  // The picture plus the bounced light. When it is settled, the exact sum is found, over several
+  // frames, at `antialias` shifted pixels.
+  std::shared_ptr<RadianceImage> addTo(const FrameInputs& in, const Direct& direct, int antialias,
+                                       const SurfacePictureOptions& options,
+                                       const EndStage& endStage);
+  // Whether the last picture has the exact sum.
+  bool isDone() const { return isExact_; }
+  int framesLeft() const;
+  void forget() { *this = ImperfectPicture(); }
+
+  const ReflectiveMap& map() const { return map_; }
+  const std::vector<float>& importance() const { return importance_; }
+  const ChosenLights& lights() const { return chosen_; }
+  const OccluderPoints& points() const { return points_; }
+  const View& view() const { return view_; }
+  const ImperfectParameters& parameters() const { return parameters_; }
+  OccluderPool pool() const;
+  // Whether there is any light; then scene() and rays() are those of the last frame.
+  bool isReady() const { return isStarted_ && !vpls_.empty(); }
+  const RenderScene& scene() const { return *scene_; }
+  const RayCaster& rays() const { return *caster_; }
+  uint64_t raysTraced() const { return rays_; }  // in the last frame
+
+ private:
+  void choose(const FrameInputs& in);
+  void restart();
+  void renderQuick(const FrameInputs& in, bool& gbufferIsCurrent);
+  void goOn(const FrameInputs& in, const Direct& direct);
+  void addRestLights(const FrameInputs& in, bool& gbufferIsCurrent);
+  bool showShifted(const FrameInputs& in, size_t sample);
+  void addCorners(const FrameInputs& in, std::span<const SceneVpl> direct);
+  size_t restLightsAFrame() const;
+  bool hasCorners() const { return parameters_.cornerLight && parameters_.clampDistance > 0.0f; }
+
+  ImperfectParameters parameters_;
+  bool isStarted_ = false;
+  const RenderScene* scene_ = nullptr;  // of the last frame
+  const RayCaster* caster_ = nullptr;
+  uint64_t rays_ = 0;
+  View view_;
+  std::optional<View> chosenFor_;  // the view for which lights and points were chosen
+  ReflectiveMap map_;
+  std::vector<float> importance_;  // by texel of the map
+  ViewSamples viewSamples_;
+  ChosenLights chosen_;
+  std::vector<shared::Vpl> vpls_;
+  OccluderPoints points_;
+  SurfacePictureOptions options_;
+  bool isOutdated_ = true;  // the quick picture
+  bool reflectanceIsCurrent_ = false;
+  std::vector<vec3> reflectance_;  // of the pixels without a shift, over π
+  Image quick_;                    // radiance by interleaved samples
+  // The exact sum: the irradiance of each shifted picture, by the first `summed_` lights; then its
+  // radiance, and row by row the light near surfaces that the clamp leaves out.
+  std::vector<shared::Vpl> restLights_;
+  RestMaps restMaps_;
+  std::vector<Image> irradiance_;
+  Image sum_;
+  size_t summed_ = 0;
+  int cornerRow_ = 0, antialias_ = 1;
+  std::vector<BiasCompensation::Pixel> corners_;
+  bool isExact_ = false;
+  std::shared_ptr<RadianceImage> under_, shown_;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,66 @@
+#include "renderer/methods/imperfect_shadow_maps/statistics.h"
+
+namespace lamplighter {
+
+void ImperfectStats::take(const ImperfectPicture& picture) {
+  bouncedSamples = static_cast<int>(picture.lights().lights.size());
+  potentialLights = static_cast<int>(picture.map().size());
+  pathsWalked = picture.map().walked();
+  defended = picture.lights().defended;
+  occluderPoints = static_cast<int>(picture.points().size());
+  pointsPending = static_cast<int>(picture.points().pendingFrames());
+  pointBytes = picture.points().memoryBytes();
+  raysTraced += picture.raysTraced();
+}
+
+const StatisticTable<ImperfectStats>& imperfectStatistics() {
+  using S = ImperfectStats;
+  static const StatisticTable<S> table{
+      {&S::lightSamples,
+       {.name = "light_samples",
+        .label = "Light samples",
+        .unit = "samples",
+        .meaning = "Light samples on the lights, for direct light."}},
+      {&S::bouncedSamples,
+       {.name = "bounced_samples",
+        .label = "Bounced samples",
+        .unit = "samples",
+        .meaning = "Light samples that carry bounced light."}},
+      {&S::potentialLights,
+       {.name = "potential_lights",
+        .label = "Potential samples",
+        .unit = "samples",
+        .meaning = "Vertices of light paths among which bounced samples are chosen."}},
+      {&S::pathsWalked,
+       {.name = "reflective_paths",
+        .label = "Paths traced",
+        .unit = "paths",
+        .meaning = "Light paths that were traced again in this frame.",
+        .kind = StatisticKind::work}},
+      {&S::defended,
+       {.name = "defended",
+        .label = "Flux out of sight",
+        .unit = "share",
+        .meaning = "Share of the bounced flux that can reach no view sample, which the defensive "
+                   "share alone chooses."}},
+      {&S::occluderPoints,
+       {.name = "occluder_points",
+        .label = "Occluder points",
+        .unit = "points",
+        .meaning = "Points on the surfaces that imperfect shadow maps are drawn from."}},
+      {&S::pointsPending,
+       {.name = "points_pending",
+        .label = "Points to place",
+        .unit = "frames",
+        .meaning = "Frames until all points are placed for the present view.",
+        .kind = StatisticKind::pending}},
+      {&S::pointBytes,
+       {.name = "point_bytes",
+        .label = "Memory of points",
+        .unit = "bytes",
+        .meaning = "Memory of occluder points and of what they are chosen by."}},
+      commonStatistics()};
+  return table;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,175 @@
+// The method of paper 2: samples chosen for the view, with shadow maps of points.
+#include <functional>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "renderer/image/average_blocks.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/imperfect_shadow_maps/imperfect_views.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+struct ImperfectRoom {
+  Scene scene;
+  NodeId box = kNoNode, lamp = kNoNode;
+  View view = test::lookAt(vec3(1.4f, 0.7f, 1.9f), vec3(0.0f, -0.6f, 0.0f), 64, 48);
+  Settings settings;
+  FrameRenderer renderer{makeCpuBackend()};
+
+  ImperfectRoom() {
+    const int white = test::addMaterial(scene, vec3(0.7f));
+    const int red = test::addMaterial(scene, vec3(0.8f, 0.2f, 0.1f));
+    test::addMesh(scene, test::roomMesh(vec3(4.0f, 3.0f, 4.0f), white));
+    box = test::addMesh(scene, test::boxMesh(vec3(0.8f), red), vec3(0.0f, -1.1f, 0.0f));
+    lamp = test::addRectangleLight(scene, vec3(-0.6f, 1.3f, 0.0f), vec2(0.8f), vec3(5.0f));
+    settings.set("bounces", 2);
+    settings.set("bounced_samples", 256);
+    settings.set("potential_lights", 4096);
+    settings.set("occluder_points", 1024);
+    settings.set("settled_resolution", 64);
+    settings.set("antialias", 2);
+  }
+
+  GiOutput frame(const SceneChanges& changes) {
+    return renderer.render({scene, changes, view, "imperfect_shadow_maps", settings});
+  }
+  Image settledBy(FrameRenderer& by, SceneChanges changes) {
+    GiOutput out;
+    for (int i = 0; i < 3000 && !out.settled; ++i) {
+      out = by.render({scene, changes, view, "imperfect_shadow_maps", settings});
+      changes = {};
+    }
+    EXPECT_TRUE(out.settled);
+    return out.radiance->pixels();
+  }
+  Image picture(const SceneChanges& changes = {}) { return settledBy(renderer, changes); }
+  Image fresh() {
+    FrameRenderer own(makeCpuBackend());
+    return settledBy(own, SceneChanges::all());
+  }
+  SceneChanges edit(const std::function<void(Scene&)>& change) {
+    const Scene old = scene;
+    change(scene);
+    return compare(old, scene);
+  }
+  Image edited(const std::function<void(Scene&)>& change) { return picture(edit(change)); }
+  Image reference() { return averageBlocks(test::renderReference(scene, view, 1024, 2), 4); }
+};
+
+TEST(ImperfectShadowMaps, SettlesNearTheReference) {
+  ImperfectRoom room;
+  room.settings.set("bounced_samples", 1024);
+  room.settings.set("antialias", 8);
+  room.settings.set("settled_resolution", 128);
+  const Metrics m = compareImages(averageBlocks(room.fresh(), 4), room.reference());
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  RecordProperty("bias", std::to_string(m.bias));
+  EXPECT_LT(m.relRmse, 0.04);
+  EXPECT_LT(std::abs(m.bias - 1.0), 0.03);
+}
+
+// The picture of each frame, with interleaved samples and maps of points.
+TEST(ImperfectShadowMaps, TheFirstFrameIsNearTheReference) {
+  ImperfectRoom room;
+  room.settings.set("bounced_samples", 1024);
+  room.settings.set("occluder_points", 4096);
+  const GiOutput out = room.frame(SceneChanges::all());
+  EXPECT_FALSE(out.settled);
+  const Metrics m = compareImages(averageBlocks(out.radiance->pixels(), 4), room.reference());
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  EXPECT_LT(m.relRmse, 0.12);
+}
+
+TEST(ImperfectShadowMaps, EditsLeaveTheBitsOfAFreshStart) {
+  ImperfectRoom room;
+  const Image before = room.picture(SceneChanges::all());
+  const auto expectFresh = [&](const Image& now) {
+    EXPECT_TRUE(test::sameBits(now, room.fresh()));
+  };
+  expectFresh(
+      room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= vec3(0.5f, 0.7f, 0.1f); }));
+  room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance = vec3(5.0f); });
+  expectFresh(room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.5f; }));
+  room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x -= 0.5f; });
+  expectFresh(room.edited([&](Scene& s) { s.find(room.box)->local.translation.z += 0.5f; }));
+  // A drag of several frames, and back.
+  for (int step = 0; step < 5; ++step)
+    room.frame(room.edit([&](Scene& s) { s.find(room.box)->local.translation.z -= 0.1f; }));
+  const Scene moved = room.scene;
+  room.scene.find(room.box)->local.translation.z = 0.0f;
+  const Image back = room.picture(compare(moved, room.scene));
+  expectFresh(back);
+  EXPECT_TRUE(test::sameBits(back, before));
+}
+
+TEST(ImperfectShadowMaps, DoesNotDependOnThreadsOrTheWayOfTheCamera) {
+  ImperfectRoom room;
+  const Image before = room.picture(SceneChanges::all());
+  const View view = room.view;
+  for (int i = 0; i < 4; ++i) {
+    room.view.eye.x += 0.4f;
+    room.frame({});
+  }
+  room.view = view;
+  EXPECT_TRUE(test::sameBits(before, room.picture()));
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_TRUE(test::sameBits(before, room.fresh()));
+}
+
+TEST(ImperfectShadowMaps, WorksAsPublished) {
+  ImperfectRoom room;
+  room.settings.set("as_published", true);
+  room.settings.set("bounced_samples", 1024);
+  const Metrics m = compareImages(averageBlocks(room.fresh(), 4), room.reference());
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  EXPECT_LT(m.relRmse, 0.25);
+}
+
+TEST(ImperfectShadowMaps, ShowsItsViews) {
+  ImperfectRoom room;
+  room.frame(SceneChanges::all());
+  const Inspection shown = room.renderer.inspect();
+  for (const MethodView& view : imperfectViews()) {
+    const ViewPicture picture = shown.pictures.at(view.name)();
+    EXPECT_EQ(picture.problem, "") << view.name;
+    EXPECT_EQ(picture.image.width, room.view.width);
+    bool isEven = true;
+    for (int x = 1; x < picture.image.width; ++x)
+      for (int y = 0; y < picture.image.height; ++y)
+        isEven &= picture.image.at(x, y)[0] == picture.image.at(0, 0)[0];
+    EXPECT_FALSE(isEven) << view.name;
+  }
+}
+
+TEST(ImperfectShadowMaps, ShowsOnlyAPartOfTheLight) {
+  ImperfectRoom room;
+  room.settings.set("antialias", 1);
+  const auto part = [&](LightPart shown) {
+    FrameRenderer own(makeCpuBackend());
+    SceneChanges changes = SceneChanges::all();
+    GiOutput out;
+    for (int i = 0; i < 3000 && !out.settled; ++i) {
+      out = own.render({.scene = room.scene,
+                        .changes = changes,
+                        .view = room.view,
+                        .method = "imperfect_shadow_maps",
+                        .settings = room.settings,
+                        .part = shown});
+      changes = {};
+    }
+    return out.radiance->pixels();
+  };
+  const Image all = part(LightPart::all), direct = part(LightPart::direct),
+              indirect = part(LightPart::indirect);
+  const float sum = test::meanOf(direct).g + test::meanOf(indirect).g;
+  EXPECT_GT(test::meanOf(indirect).g, 0.05f * test::meanOf(all).g);
+  EXPECT_NEAR(sum, test::meanOf(all).g, 0.01f * sum);
+}
+
+}  // namespace
+}  // namespace lamplighter
