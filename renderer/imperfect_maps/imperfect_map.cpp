@@ -16,12 +16,6 @@ constexpr float kSamePlaneDepth = 0.03f;
 
 }  // namespace
 
-// A point in the space of the light.
-struct ImperfectMap::LocalPoint {
-  vec3 q, n;
-  float perNq;  // 1/(n·q)
-};
-
 ImperfectMap::ImperfectMap(const ImperfectMapOptions& options)
     : options_(options), side_(static_cast<size_t>(options.resolution)) {
   const size_t count = side_ * side_, padded = count + kSplatLanes;
@@ -45,14 +39,20 @@ std::span<const float> ImperfectMap::render(const shared::Vpl& light, const Occl
   const SplatProjection projection(light, options_.resolution,
                                    options_.splats == SplatShape::billboard);
   SplatBatch batch;
+  const bool keepsPlanes = options_.fill == HoleFilling::planes;
+  if (keepsPlanes)
+    for (std::vector<float>& v : planes_) v.resize(points.count + kSplatLanes);
   for (size_t first = 0; first < points.count; first += kSplatLanes) {
     uint32_t lanes = projection.project(points, first, batch);
+    if (lanes == 0) continue;
+    if (keepsPlanes)
+      for (size_t k = 0; k < 3; ++k) std::copy_n(batch.plane[k], kSplatLanes, &planes_[k][first]);
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(lanes));
       draw(batch, lane, static_cast<uint32_t>(first + lane));
     }
   }
-  if (options_.fill == HoleFilling::planes) fillPlanes(light, points);
+  if (options_.fill == HoleFilling::planes) fillPlanes();
   if (options_.fill == HoleFilling::pullPush) pullPush();
   return std::span(texels_).first(side_ * side_);
 }
@@ -89,42 +89,31 @@ void ImperfectMap::draw(const SplatBatch& batch, size_t lane, uint32_t point) {
   }
 }
 
-ImperfectMap::LocalPoint ImperfectMap::localOf(const shared::Vpl& light, const OccluderSpan& points,
-                                               size_t i) const {
-  LocalPoint p{};
-  p.q =
-      shared::vplToLight(light, vec3(points.x[i], points.y[i], points.z[i]) - vec3(light.position));
-  p.n = options_.splats == SplatShape::billboard
-            ? p.q
-            : shared::vplToLight(light, vec3(points.nx[i], points.ny[i], points.nz[i]));
-  p.perNq = 1.0f / glm::dot(p.n, p.q);
-  return p;
+// A hole between two points that lie on one plane gets the depth of that plane.
+void ImperfectMap::fillPlanes() {
+  const Floats8 zero = hn::Zero(kTag);
+  for (size_t first = 0; first < side_ * side_; first += kSplatLanes) {
+    uint32_t holes = bitsOf(hn::Eq(wideAt(texels_, first), zero));
+    for (; holes != 0; holes &= holes - 1)
+      fillHole(first + static_cast<size_t>(std::countr_zero(holes)));
+  }
 }
 
-// A hole between two points that lie on one plane gets the depth of that plane.
-void ImperfectMap::fillPlanes(const shared::Vpl& light, const OccluderSpan& points) {
+void ImperfectMap::fillHole(size_t texel) {
   const auto side = static_cast<int>(side_);
-  constexpr std::array<std::array<int, 2>, 4> kAcross{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
-  const auto pointAt = [&](int x, int y) {
-    if (x < 0 || y < 0 || x >= side || y >= side) return kNone;
-    return point_[static_cast<size_t>(y) * side_ + static_cast<size_t>(x)];
+  const int x = static_cast<int>(texel % side_), y = static_cast<int>(texel / side_);
+  if (x == 0 || y == 0 || x == side - 1 || y == side - 1) return;
+  const vec3 e(ex_[texel], ey_[texel], ez_[texel]);
+  const auto depthOf = [&](uint32_t point) {
+    return e.x * planes_[0][point] + e.y * planes_[1][point] + e.z * planes_[2][point];
   };
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const size_t i = static_cast<size_t>(y) * side_ + static_cast<size_t>(x);
-      if (texels_[i] > 0.0f) continue;
-      const vec3 e(ex_[i], ey_[i], ez_[i]);
-      for (const auto& [dx, dy] : kAcross) {
-        const uint32_t a = pointAt(x - dx, y - dy), b = pointAt(x + dx, y + dy);
-        if (a == kNone || b == kNone) continue;
-        const LocalPoint p = localOf(light, points, a), r = localOf(light, points, b);
-        const float depthA = glm::dot(p.n, e) * p.perNq, depthB = glm::dot(r.n, e) * r.perNq;
-        const float least = std::min(depthA, depthB), most = std::max(depthA, depthB);
-        if (!(least > 0.0f) || most - least > kSamePlaneDepth * most) continue;
-        texels_[i] = least;
-        break;
-      }
-    }
+  for (const size_t step : {size_t{1}, side_, side_ + 1, side_ - 1}) {
+    const uint32_t a = point_[texel - step], b = point_[texel + step];
+    if (a == kNone || b == kNone) continue;
+    const float least = std::min(depthOf(a), depthOf(b)), most = std::max(depthOf(a), depthOf(b));
+    if (!(least > 0.0f) || most - least > kSamePlaneDepth * most) continue;
+    texels_[texel] = least;
+    return;
   }
 }
 

@@ -3,6 +3,7 @@
 // Computation of Indirect Illumination", 2008).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,18 +59,18 @@ class ImperfectMap {
 
  private:
   static constexpr uint32_t kNone = 0xffffffffu;
-  struct LocalPoint;
   void draw(const SplatBatch& batch, size_t lane, uint32_t point);
-  LocalPoint localOf(const shared::Vpl& light, const OccluderSpan& points, size_t i) const;
-  void fillPlanes(const shared::Vpl& light, const OccluderSpan& points);
+  void fillPlanes();
+  void fillHole(size_t texel);
   void pullPush();
 
   ImperfectMapOptions options_;
   size_t side_;
   std::vector<float> texels_;
-  std::vector<uint32_t> point_;              // by texel: of the occluder, or kNone
-  std::vector<float> ex_, ey_, ez_, e2_;     // the points of w = 1 at the texels' centres
-  std::vector<std::vector<float>> pyramid_;  // of pull-push
+  std::vector<uint32_t> point_;               // by texel: of the occluder, or kNone
+  std::vector<float> ex_, ey_, ez_, e2_;      // the points of w = 1 at the texels' centres
+  std::array<std::vector<float>, 3> planes_;  // by point that was drawn: 1/w at e is plane·e
+  std::vector<std::vector<float>> pyramid_;   // of pull-push
 };
 
 }  // namespace lamplighter

@@ -36,9 +36,12 @@ std::vector<vec3> reflectancesOf(const FrameInputs& in, const View& view,
     for (int x = 0; x < view.width; ++x) {
       if (!gbuffer.isHit(x, y)) continue;
       const GBufferPoint p = gbuffer.at(x, y);
-      const SeenTriangle seen(in.scene, p);
-      if (!seen.isSound) continue;
-      const PixelReflectance r = reflectanceOf(in.scene, p, seen.weights, view.eye, options);
+      const Material& m =
+          in.scene.materials[static_cast<size_t>(in.scene.objects[p.object].material)];
+      // Only gloss needs the place on the triangle.
+      vec2 weights(0.0f);
+      if (options.speculars && mayBeGlossy(m)) weights = SeenTriangle(in.scene, p).weights;
+      const PixelReflectance r = reflectanceOf(in.scene, p, weights, view.eye, options);
       out[static_cast<size_t>(y) * width + static_cast<size_t>(x)] =
           (1.0f / kPi) * (r.diffuse + r.lobe);
     }

@@ -1,6 +1,8 @@
 // How often imperfect shadow maps are wrong, and what their parts cost: docs/results/
 // imperfect_shadow_maps.md.
 //   lamplighter_imperfect_maps SCENE... [--views N]
+//   lamplighter_imperfect_maps SCENE --moving METHOD [--camera NAME] [--set NAME=VALUE]...
+//     [--picture FILE]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,6 +26,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"
+#include "tests/tools/imperfect_maps/moving.h"
 
 namespace lamplighter {
 namespace {
@@ -264,11 +267,27 @@ void printTimes(const Level& level) {
 int run(std::span<char*> arguments) {
   int views = 4;
   std::vector<fs::path> files;
+  std::string moving, camera, picture;
+  std::vector<std::string> set;
   for (size_t i = 0; i < arguments.size(); ++i) {
-    if (std::string_view(arguments[i]) == "--views" && i + 1 < arguments.size())
+    const std::string_view flag = arguments[i];
+    const bool hasValue = i + 1 < arguments.size();
+    if (flag == "--views" && hasValue)
       views = std::stoi(arguments[++i]);
+    else if (flag == "--moving" && hasValue)
+      moving = arguments[++i];
+    else if (flag == "--camera" && hasValue)
+      camera = arguments[++i];
+    else if (flag == "--picture" && hasValue)
+      picture = arguments[++i];
+    else if (flag == "--set" && hasValue)
+      set.emplace_back(arguments[++i]);
     else
-      files.emplace_back(arguments[i]);
+      files.emplace_back(flag);
+  }
+  if (!moving.empty()) {
+    for (const fs::path& file : files) printMoving(file, camera, moving, set, picture);
+    return 0;
   }
   for (const fs::path& file : files) {
     Level level(file);
