@@ -24,16 +24,6 @@ constexpr float kSameDirection = 0.8f, kSamePlane = 0.25f;
 
 float luminanceAt(const ReflectiveMap::Texels& t, size_t i) { return luminance(t.intensity(i)); }
 
-// cos⁺·cos⁺/max(d², d0²) [1/m²].
-float geometryOf(const vec3& from, const vec3& fromNormal, const vec3& to, const vec3& toNormal,
-                 float clampDistance) {
-  const vec3 way = to - from;
-  const float d2 = glm::dot(way, way);
-  const float z = glm::dot(way, fromNormal), s = -glm::dot(way, toNormal);
-  if (!(z > 0.0f) || !(s > 0.0f)) return 0.0f;
-  return z * s / (d2 * std::max(d2, clampDistance * clampDistance));
-}
-
 // A pixel and its density relative to a uniform one.
 struct Guided {
   vec2 pixel{0.0f};
@@ -59,6 +49,15 @@ Guided drawNear(const vec2& middle, const vec2& size, float unit, vec2 u) {
 }
 
 }  // namespace
+
+float geometryBetween(const vec3& from, const vec3& fromNormal, const vec3& to,
+                      const vec3& toNormal, float clampDistance) {
+  const vec3 way = to - from;
+  const float d2 = glm::dot(way, way);
+  const float z = glm::dot(way, fromNormal), s = -glm::dot(way, toNormal);
+  if (!(z > 0.0f) || !(s > 0.0f)) return 0.0f;
+  return z * s / (d2 * std::max(d2, clampDistance * clampDistance));
+}
 
 void ViewSamples::add(const vec3& position, const vec3& normal, float albedoLuminance) {
   x.push_back(position.x);
@@ -143,8 +142,8 @@ std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const GBuff
         if (!gbuffer.isHit(x, y)) continue;
         const GBufferPoint p = gbuffer.at(x, y);
         sum += luminance(p.albedo) / at.density *
-               geometryOf(t.position(i), t.normal(i), p.position, p.geometricNormal,
-                          options.clampDistance);
+               geometryBetween(t.position(i), t.normal(i), p.position, p.geometricNormal,
+                               options.clampDistance);
       }
       out[i] = brightness * sum / static_cast<float>(across * down);
     }

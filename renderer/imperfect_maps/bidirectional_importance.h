@@ -22,6 +22,10 @@ struct ViewSamples {
 ViewSamples raySamples(const RenderScene& scene, const RayCaster& rays, const View& view,
                        int count);
 
+// cos⁺·cos⁺/max(d², d0²) [1/m²]; unit normals.
+float geometryBetween(const vec3& from, const vec3& fromNormal, const vec3& to,
+                      const vec3& toNormal, float clampDistance);
+
 struct BidirectionalOptions {
   // Each texel has samples of its own, of a jittered grid of the pixels (paper 2, section 4.1). 0:
   // all texels share the given ones.

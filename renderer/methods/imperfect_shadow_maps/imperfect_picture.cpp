@@ -20,6 +20,7 @@ constexpr uint32_t kBlocks = 16;
 // Of an exact sum in a frame: lights × pixels, and texels of maps. Some 80 ms on two cores.
 constexpr double kSumsAFrame = 32e6, kTracedAFrame = 600e3;
 
+constexpr uint64_t kChoosingRaysAFrame = 100'000;
 constexpr int kCornerPixelsAFrame = 1 << 15;
 
 int rowsAFrame(const View& view) { return std::max(1, kCornerPixelsAFrame / view.width); }
@@ -117,11 +118,6 @@ void ImperfectPicture::choose(const FrameInputs& in) {
   viewSamples_ =
       raySamples(in.scene, in.services.rays(), *chosenFor_,
                  parameters_.viewChoice == ViewChoice::fixed ? parameters_.viewSamples : 128);
-  LightChoiceOptions choice;
-  choice.count = parameters_.bouncedSamples;
-  choice.defence = parameters_.adapt == ViewAdaption::off ? 1.0f : 0.01f * parameters_.defence;
-  choice.seed = seed;
-  if (parameters_.betweenTexels) choice.between = &view_;
   if (parameters_.viewChoice == ViewChoice::fixed) {
     importance_ = bidirectionalImportance(map_, viewSamples_, parameters_.clampDistance);
   } else {
@@ -132,12 +128,30 @@ void ImperfectPicture::choose(const FrameInputs& in) {
                           {parameters_.viewSamples, parameters_.viewChoice == ViewChoice::guided,
                            parameters_.clampDistance, seed}));
   }
-  chosen_ = chooseLights(map_, importance_, choice);
+  chosen_ = chooseLights(map_, importance_, choiceOptions());
   vpls_.clear();
-  restLights_.clear();
   for (const SceneVpl& light : chosen_.lights) vpls_.push_back(light.vpl);
-  const auto rest = parameters_.betweenTexels ? chosen_.lights : mergedLights(chosen_);
-  for (const SceneVpl& light : rest) restLights_.push_back(light.vpl);
+  hasRestLights_ = false;
+  visible_.restart(importance_);
+}
+
+LightChoiceOptions ImperfectPicture::choiceOptions() const {
+  LightChoiceOptions choice;
+  choice.count = parameters_.bouncedSamples;
+  choice.defence = parameters_.adapt == ViewAdaption::off ? 1.0f : 0.01f * parameters_.defence;
+  choice.seed = static_cast<uint32_t>(parameters_.seed);
+  if (parameters_.betweenTexels) choice.between = &view_;
+  return choice;
+}
+
+// The samples of the exact sum: chosen anew, with what stands between.
+void ImperfectPicture::chooseForRest() {
+  const ChosenLights chosen =
+      parameters_.raysChoose ? chooseLights(map_, visible_.importance(), choiceOptions()) : chosen_;
+  restSamples_ = parameters_.betweenTexels ? chosen.lights : mergedLights(chosen);
+  restLights_.clear();
+  for (const SceneVpl& light : restSamples_) restLights_.push_back(light.vpl);
+  hasRestLights_ = true;
 }
 
 // Lights that the exact sum gets in a frame.
@@ -152,7 +166,8 @@ size_t ImperfectPicture::restLightsAFrame() const {
 int ImperfectPicture::framesLeft() const {
   if (isExact_) return 0;
   return static_cast<int>(points_.pendingFrames()) + 1 +
-         static_cast<int>((restLights_.size() - summed_) / restLightsAFrame()) +
+         static_cast<int>((hasRestLights_ ? restLights_.size() - summed_ : vpls_.size()) /
+                          restLightsAFrame()) +
          (view_.height - cornerRow_) / rowsAFrame(view_);
 }
 
@@ -209,7 +224,12 @@ void ImperfectPicture::renderQuick(const FrameInputs& in, bool& gbufferIsCurrent
 }
 
 void ImperfectPicture::goOn(const FrameInputs& in, const Direct& direct) {
-  if (summed_ < restLights_.size() || irradiance_.empty())
+  if (!hasRestLights_) {
+    if (parameters_.raysChoose && !visible_.isDone(map_))
+      rays_ += visible_.goOn(map_, viewSamples_, parameters_.clampDistance, in.services.rays(),
+                             kChoosingRaysAFrame);
+    if (!parameters_.raysChoose || visible_.isDone(map_)) chooseForRest();
+  } else if (summed_ < restLights_.size() || irradiance_.empty())
     addRestLights(in, *direct.gbufferIsCurrent);
   else
     addCorners(in, direct.lights);
@@ -257,7 +277,7 @@ void ImperfectPicture::addRestLights(const FrameInputs& in, bool& gbufferIsCurre
 // The light that the clamp of 1/d² removes.
 void ImperfectPicture::addCorners(const FrameInputs& in, std::span<const SceneVpl> direct) {
   std::vector<SceneVpl> lights(direct.begin(), direct.end());
-  lights.insert(lights.end(), chosen_.lights.begin(), chosen_.lights.end());
+  lights.insert(lights.end(), restSamples_.begin(), restSamples_.end());
   BiasCompensation::Options options;
   options.bounces = parameters_.bounces;
   options.emission = false;

@@ -10,6 +10,7 @@
 #include "renderer/imperfect_maps/light_choice.h"
 #include "renderer/imperfect_maps/occluder_points.h"
 #include "renderer/imperfect_maps/rest_maps.h"
+#include "renderer/imperfect_maps/visible_importance.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/imperfect_shadow_maps/parameters.h"
 #include "renderer/methods/many_lights/bias_compensation.h"
@@ -57,6 +58,8 @@ class ImperfectPicture {
 
  private:
   void choose(const FrameInputs& in);
+  LightChoiceOptions choiceOptions() const;
+  void chooseForRest();
   void restart();
   void renderQuick(const FrameInputs& in, bool& gbufferIsCurrent);
   void goOn(const FrameInputs& in, const Direct& direct);
@@ -86,7 +89,10 @@ class ImperfectPicture {
   Image quick_;                    // radiance by interleaved samples
   // The exact sum: the irradiance of each shifted picture, by the first `summed_` lights; then its
   // radiance, and row by row the light near surfaces that the clamp leaves out.
-  std::vector<shared::Vpl> restLights_;
+  VisibleImportance visible_;
+  bool hasRestLights_ = false;
+  std::vector<SceneVpl> restSamples_;    // chosen by rays, too
+  std::vector<shared::Vpl> restLights_;  // the same
   RestMaps restMaps_;
   std::vector<Image> irradiance_;
   Image sum_;

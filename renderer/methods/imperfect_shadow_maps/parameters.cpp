@@ -18,6 +18,7 @@ ImperfectParameters ImperfectParameters::chosen() const {
   out.interleave = 8;
   out.cornerLight = false;
   out.settle = ImperfectRest::imperfect;
+  out.raysChoose = false;
   return out;
 }
 
@@ -157,6 +158,11 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "Side of traced shadow maps. More: sharper shadows at rest, which takes longer.",
        {16, 1024, kLogarithmic},
        quality},
+      {&P::raysChoose, "rays_choose", "Rays choose at rest",
+       "At rest, rays find how much of the light of potential samples reaches the view, and "
+       "samples "
+       "are chosen anew by it. Pays where walls stand between.",
+       lightSamples},
       frameBudgetParameters(),
       surfaceParameters()};
   return table;

@@ -39,6 +39,7 @@ struct ImperfectParameters : PathParameters, FrameBudgetParameters, SurfaceParam
   bool cornerLight = true;
   ImperfectRest settle = ImperfectRest::maps;
   int settledResolution = 128;
+  bool raysChoose = true;
   bool operator==(const ImperfectParameters&) const = default;
 
   // With the values of the paper, if asPublished.
