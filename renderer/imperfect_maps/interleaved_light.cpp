@@ -70,9 +70,9 @@ void take(const cpu::GBuffer& g, size_t from, MapPacket& packet, int lane) {
   }
 }
 
-cpu::SumConstants constantsOf(const InterleavedOptions& options) {
+cpu::SumConstants constantsOf(const MapLight& light, const InterleavedOptions& options) {
   cpu::SumConstants out;
-  out.clampDistance2 = options.clampDistance * options.clampDistance;
+  out.clampDistance2 = light.clampDistance * light.clampDistance;
   out.bias = options.shadowBias;
   return out;
 }
@@ -95,7 +95,7 @@ LightRange LightRange::ofClass(size_t count, int classes, int c) {
   return {count * own / all, count * (own + 1) / all};
 }
 
-Image sumInterleaved(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+Image sumInterleaved(const GBufferView& gbuffer, std::span<const MapLight> lights,
                      const OccluderPool& pool, const InterleavedOptions& options) {
   const int width = gbuffer.width(), height = gbuffer.height(), side = options.side;
   Image out(width, height);
@@ -126,9 +126,9 @@ Image sumInterleaved(const GBufferView& gbuffer, std::span<const shared::Vpl> li
           }
           const LightRange mine = LightRange::ofClass(lights.size(), options.classes(), c);
           for (size_t k = mine.first; k < mine.last; ++k) {
-            const std::span<const float> map = own.maps.render(lights[k], pool.of(k));
-            addLight(cpu::makeLightRecord(lights[k], map.data(), options.map.resolution),
-                     constantsOf(options), own.packets);
+            const std::span<const float> map = own.maps.render(lights[k].vpl, pool.of(k));
+            addLight(cpu::makeLightRecord(lights[k].vpl, map.data(), options.map.resolution),
+                     constantsOf(lights[k], options), own.packets);
           }
           if (mine.first == mine.last) continue;
           const float scale =
@@ -144,19 +144,19 @@ Image sumInterleaved(const GBufferView& gbuffer, std::span<const shared::Vpl> li
   return out;
 }
 
-std::vector<float> imperfectMaps(std::span<const shared::Vpl> lights, size_t first,
+std::vector<float> imperfectMaps(std::span<const MapLight> lights, size_t first,
                                  const OccluderPool& pool, const ImperfectMapOptions& options) {
   const auto side = static_cast<size_t>(options.resolution);
   std::vector<float> maps(lights.size() * side * side);
   tbb::enumerable_thread_specific<ImperfectMap> scratch([&] { return ImperfectMap(options); });
   tbb::parallel_for(size_t{0}, lights.size(), [&](size_t k) {
-    std::ranges::copy(scratch.local().render(lights[k], pool.of(first + k)),
+    std::ranges::copy(scratch.local().render(lights[k].vpl, pool.of(first + k)),
                       maps.begin() + static_cast<ptrdiff_t>(k * side * side));
   });
   return maps;
 }
 
-void addLights(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+void addLights(const GBufferView& gbuffer, std::span<const MapLight> lights,
                std::span<const float> maps, int resolution, const InterleavedOptions& options,
                Image& sum) {
   const size_t texels = static_cast<size_t>(resolution) * static_cast<size_t>(resolution);
@@ -168,8 +168,8 @@ void addLights(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
       if (gbuffer.isHit(x, y))
         take(g, g.index(x, y), packets[static_cast<size_t>(x / kLanes)], x % kLanes);
     for (size_t k = 0; k < lights.size(); ++k)
-      addLight(cpu::makeLightRecord(lights[k], &maps[k * texels], resolution), constantsOf(options),
-               packets);
+      addLight(cpu::makeLightRecord(lights[k].vpl, &maps[k * texels], resolution),
+               constantsOf(lights[k], options), packets);
     for (int x = 0; x < gbuffer.width(); ++x)
       for (int i = 0; i < 3; ++i)
         sum.at(x, y)[i] += packets[static_cast<size_t>(x / kLanes)].sum[i][x % kLanes];

@@ -10,6 +10,7 @@
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/image/image.h"
 #include "renderer/imperfect_maps/imperfect_map.h"
+#include "renderer/imperfect_maps/map_light.h"
 
 namespace lamplighter {
 
@@ -22,9 +23,8 @@ struct OccluderPool {
 
 struct InterleavedOptions {
   ImperfectMapOptions map;
-  int side = 8;                // of a square of pixels with one class each
-  float clampDistance = 0.5f;  // [m]
-  float shadowBias = 0.002f;   // share of the distance
+  int side = 8;               // of a square of pixels with one class each
+  float shadowBias = 0.002f;  // share of the distance
   int classes() const { return side * side; }
   bool operator==(const InterleavedOptions&) const = default;
 };
@@ -37,17 +37,17 @@ struct LightRange {
 
 // Irradiance of each pixel [W/m²] by the lights of its class, as if they were all. Pixel (x, y) has
 // the class (x mod side) + side · (y mod side).
-Image sumInterleaved(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+Image sumInterleaved(const GBufferView& gbuffer, std::span<const MapLight> lights,
                      const OccluderPool& pool, const InterleavedOptions& options);
 
 // Imperfect maps of some lights, one after the other. `first`: index of the first light, which
 // selects its points.
-std::vector<float> imperfectMaps(std::span<const shared::Vpl> lights, size_t first,
+std::vector<float> imperfectMaps(std::span<const MapLight> lights, size_t first,
                                  const OccluderPool& pool, const ImperfectMapOptions& options);
 
 // Adds the irradiance by all lights to `sum`, at all pixels. `maps`: of the lights, one after the
 // other, `resolution` texels a side.
-void addLights(const GBufferView& gbuffer, std::span<const shared::Vpl> lights,
+void addLights(const GBufferView& gbuffer, std::span<const MapLight> lights,
                std::span<const float> maps, int resolution, const InterleavedOptions& options,
                Image& sum);
 

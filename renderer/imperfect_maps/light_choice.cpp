@@ -122,4 +122,16 @@ std::vector<SceneVpl> mergedLights(const ChosenLights& chosen) {
   return out;
 }
 
+std::vector<MapLight> boundedLights(std::span<const SceneVpl> lights, float clampDistance,
+                                    float mostIrradiance) {
+  std::vector<MapLight> out;
+  out.reserve(lights.size());
+  for (const SceneVpl& light : lights) {
+    const float nearest =
+        mostIrradiance > 0.0f ? std::sqrt(luminance(light.vpl.intensity) / mostIrradiance) : 0.0f;
+    out.push_back({light.vpl, std::max(clampDistance, nearest)});
+  }
+  return out;
+}
+
 }  // namespace lamplighter

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/imperfect_maps/map_light.h"
 #include "renderer/imperfect_maps/reflective_map.h"
 #include "renderer/scene/camera.h"
 
@@ -37,5 +38,11 @@ ChosenLights chooseLights(const ReflectiveMap& map, std::span<const float> impor
 // The same light with each texel that was chosen several times as one sample, in the order of the
 // first choices. Not for samples between texels.
 std::vector<SceneVpl> mergedLights(const ChosenLights& chosen);
+
+// Lights whose 1/d² term is bounded so that none lights a point more than `mostIrradiance` [W/m²],
+// and at least as far as `clampDistance` [m]. A sample that its probability makes very bright would
+// show as a blotch on near surfaces.
+std::vector<MapLight> boundedLights(std::span<const SceneVpl> lights, float clampDistance,
+                                    float mostIrradiance);
 
 }  // namespace lamplighter

@@ -7,7 +7,7 @@
 namespace lamplighter {
 
 uint64_t RestMaps::draw(const RenderScene& scene, const RayCaster& rays,
-                        std::span<const shared::Vpl> lights, int resolution) {
+                        std::span<const MapLight> lights, int resolution) {
   if (!isCurrent_) raster_.setScene(scene);
   isCurrent_ = true;
   if (grid_.resolution != resolution) grid_ = cpu::ShadowMapGrid(resolution);
@@ -18,7 +18,7 @@ uint64_t RestMaps::draw(const RenderScene& scene, const RayCaster& rays,
   std::atomic<uint64_t> cast{0};
   tbb::parallel_for(size_t{0}, lights.size(), [&](size_t i) {
     std::vector<uint8_t> isTraced(bands, 0);
-    cast += raster_.render(rays, grid_, lights[i], 0, resolution,
+    cast += raster_.render(rays, grid_, lights[i].vpl, 0, resolution,
                            std::span(maps_).subspan(i * texels, texels), {}, isTraced);
   });
   return cast;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/shadow_maps/shadow_raster.h"
+#include "renderer/imperfect_maps/map_light.h"
 
 namespace lamplighter {
 
@@ -15,8 +16,8 @@ class RestMaps {
   // Simple objects are rasterised, others traced. Maps are resolution² texels each, one after the
   // other, as vpl_shading.h defines them; valid until the next call. In parallel; the result does
   // not depend on it. Returns the number of rays.
-  uint64_t draw(const RenderScene& scene, const RayCaster& rays,
-                std::span<const shared::Vpl> lights, int resolution);
+  uint64_t draw(const RenderScene& scene, const RayCaster& rays, std::span<const MapLight> lights,
+                int resolution);
   std::span<const float> maps() const { return maps_; }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace lamplighter {
 
-enum class BouncedCarrier : uint8_t { meshes, links };
+enum class BouncedCarrier : uint8_t { meshes, links, imperfect };
 
 struct CarrierChoice {
   BouncedCarrier carrier = BouncedCarrier::meshes;
@@ -18,7 +18,8 @@ struct CarrierChoice {
 // Links of texels for rooms whose surfaces are larger than texels: bounced light costs least there
 // while lamps move, and has the least error. Meshes where surfaces are finer than texels, where the
 // sky gives light (its direct light is on meshes, too), and where surfaces are glossy (mirrors see
-// meshes). `texel`: wanted side [m].
+// meshes). Samples with imperfect shadow maps where meshes would take seconds for an edit: levels
+// of very many triangles without a sky. `texel`: wanted side [m].
 CarrierChoice carrierFor(const RenderScene& scene, float texel);
 
 }  // namespace lamplighter

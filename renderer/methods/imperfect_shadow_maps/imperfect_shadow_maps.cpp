@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "renderer/methods/imperfect_shadow_maps/imperfect_picture.h"
-#include "renderer/methods/imperfect_shadow_maps/imperfect_views.h"
-#include "renderer/methods/imperfect_shadow_maps/stages.h"
+#include "renderer/methods/imperfect_light/imperfect_picture.h"
+#include "renderer/methods/imperfect_light/imperfect_views.h"
+#include "renderer/methods/imperfect_light/stages.h"
 #include "renderer/methods/imperfect_shadow_maps/statistics.h"
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/methods/many_lights/parameters.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "renderer/methods/common_statistics.h"
-#include "renderer/methods/imperfect_shadow_maps/imperfect_picture.h"
+#include "renderer/methods/imperfect_light/imperfect_picture.h"
 
 namespace lamplighter {
 

@@ -6,9 +6,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/corner_light/bias_compensation_filter.h"
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/many_lights/add_scaled.h"
-#include "renderer/methods/many_lights/bias_compensation_filter.h"
 #include "renderer/methods/pixel_jitter.h"
 
 namespace lamplighter {

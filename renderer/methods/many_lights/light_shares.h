@@ -10,8 +10,8 @@
 
 #include "renderer/backends/image_pool.h"
 #include "renderer/backends/many_lights_kernels.h"
+#include "renderer/corner_light/bias_compensation.h"
 #include "renderer/light_maps/light_proxies.h"
-#include "renderer/methods/many_lights/bias_compensation.h"
 #include "renderer/methods/many_lights/emission_shares.h"
 #include "renderer/sampling/light_sample_table.h"
 #include "renderer/visibility/visibility_database.h"

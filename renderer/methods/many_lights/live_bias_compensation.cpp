@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/methods/many_lights/bias_compensation_filter.h"
+#include "renderer/corner_light/bias_compensation_filter.h"
 
 namespace lamplighter {
 namespace {

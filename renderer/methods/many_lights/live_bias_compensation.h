@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "renderer/corner_light/bias_compensation.h"
 #include "renderer/methods/gi_method.h"
-#include "renderer/methods/many_lights/bias_compensation.h"
 #include "renderer/sampling/light_sample_table.h"
 
 namespace lamplighter {

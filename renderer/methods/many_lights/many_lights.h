@@ -10,6 +10,7 @@
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/bounced_picture.h"
 #include "renderer/methods/gi_method.h"
+#include "renderer/methods/imperfect_light/imperfect_picture.h"
 #include "renderer/methods/linked_picture.h"
 #include "renderer/methods/many_lights/light_shares.h"
 #include "renderer/methods/many_lights/live_bias_compensation.h"
@@ -53,6 +54,8 @@ class ManyLights final : public GiMethod {
                          ManyLightsStats& stats);
   void addLinks(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
                 ManyLightsStats& stats);
+  void addImperfect(const FrameInputs& in, const Options& options, StageTimer& stages,
+                    GiOutput& out, ManyLightsStats& stats);
   void addMeshes(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
                  ManyLightsStats& stats);
   void takeScene(const FrameInputs& in, const Options& options);
@@ -134,8 +137,9 @@ class ManyLights final : public GiMethod {
   LiveBiasCompensation corners_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;
-  BouncedPicture meshes_;  // with indirect = meshes
-  LinkedPicture linked_;   // with indirect = links
+  BouncedPicture meshes_;       // with indirect = meshes
+  LinkedPicture linked_;        // with indirect = links
+  ImperfectPicture imperfect_;  // with indirect = imperfect
 };
 
 MethodInfo manyLightsInfo();

@@ -36,6 +36,10 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, boo
     linkBounces = std::exchange(bounces, 0);
     directShare = 1.0f;
   }
+  if (indirect == ManyLightsIndirect::imperfect) {
+    imperfectBounces = std::exchange(bounces, 0);
+    directShare = 1.0f;
+  }
   if (!useVisibility()) forgoVisibility();
   if (clampDistance <= 0.0f) cornerLight = false;
   if (!refines) refine = 0;
@@ -52,9 +56,30 @@ void ManyLightsOptions::choose(bool onProcessor, const RenderScene& scene) {
     return;
   }
   const CarrierChoice choice = carrierFor(scene, texel);
-  const bool isLinks = choice.carrier == BouncedCarrier::links;
-  indirect = isLinks ? ManyLightsIndirect::links : ManyLightsIndirect::meshes;
-  carrierReason = (isLinks ? "links: " : "meshes: ") + choice.reason;
+  switch (choice.carrier) {
+    case BouncedCarrier::meshes:
+      indirect = ManyLightsIndirect::meshes;
+      carrierReason = "meshes: " + choice.reason;
+      return;
+    case BouncedCarrier::links:
+      indirect = ManyLightsIndirect::links;
+      carrierReason = "links: " + choice.reason;
+      return;
+    case BouncedCarrier::imperfect:
+      indirect = ManyLightsIndirect::imperfect;
+      carrierReason = "imperfect: " + choice.reason;
+  }
+}
+
+ImperfectParameters ManyLightsOptions::imperfect() const {
+  ImperfectParameters out;
+  static_cast<SurfaceParameters&>(out) = *this;
+  out.seed = seed;
+  out.bounces = imperfectBounces;
+  out.updates = updates;
+  out.clampDistance = clampDistance;
+  out.cornerLight = cornerLight;
+  return out;
 }
 
 void ManyLightsOptions::forgoVisibility() {

@@ -1,6 +1,7 @@
 // The parameters of the method as its stages use them.
 #pragma once
 
+#include "renderer/methods/imperfect_light/parameters.h"
 #include "renderer/methods/many_lights/live_lights.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/methods/many_lights/refinement.h"
@@ -25,6 +26,10 @@ struct ManyLightsOptions : ManyLightsParameters {
   // Likewise of light along links of texels.
   int linkBounces = 0;
   bool useLinks() const { return linkBounces > 0; }
+  // Likewise of light by samples with imperfect shadow maps.
+  int imperfectBounces = 0;
+  bool useImperfect() const { return imperfectBounces > 0; }
+  ImperfectParameters imperfect() const;
   // They show the sky, too, without its suns.
   bool useMeshes() const { return indirect == ManyLightsIndirect::meshes; }
 

@@ -48,13 +48,17 @@ const ParameterTable<P>& manyLightsParameters() {
        "samples: light samples carry it. meshes: surfaces keep it and the light of the sky, smooth "
        "and current in each frame, and all light samples are placed on lamps and suns. links: "
        "texels of the surfaces exchange it along links that are found once, so that moving lights "
-       "trace no rays for it. automatic: on the cpu backend links in rooms without sky and gloss "
-       "whose surfaces are "
-       "larger than texels, otherwise meshes; samples on gl and with prt.",
+       "trace no rays for it. imperfect: 1,024 samples of it are chosen for each view, with shadow "
+       "maps of points (method imperfect_shadow_maps); nothing is prepared, however large the "
+       "level "
+       "is. automatic: on the cpu backend links in rooms without sky and gloss whose surfaces are "
+       "larger than texels, imperfect in levels of very many triangles without a sky, otherwise "
+       "meshes; samples on gl and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
         {"meshes", ManyLightsIndirect::meshes},
-        {"links", ManyLightsIndirect::links}},
+        {"links", ManyLightsIndirect::links},
+        {"imperfect", ManyLightsIndirect::imperfect}},
        lightSamples},
       surfaceLightParameters(),
       storedDepthParameters(),

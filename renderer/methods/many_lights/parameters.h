@@ -13,7 +13,7 @@ enum class ManyLightsTechnique { naive, visibility, lightMaps };
 // What carries bounced light: light samples, or light that is kept on surfaces. automatic: by a
 // rule on the scene (carrier_rule.h) where the backend renders on the processor, samples where
 // showing them reads the picture back.
-enum class ManyLightsIndirect { automatic, samples, meshes, links };
+enum class ManyLightsIndirect { automatic, samples, meshes, links, imperfect };
 
 // Those that change how the light of the same light samples is summed. Memory is in MiB.
 struct LightSumParameters : SurfaceParameters {

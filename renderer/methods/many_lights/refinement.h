@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "renderer/backends/many_lights_kernels.h"
+#include "renderer/corner_light/bias_compensation.h"
 #include "renderer/methods/gi_method.h"
-#include "renderer/methods/many_lights/bias_compensation.h"
 #include "renderer/sampling/vpl_set.h"
 
 namespace lamplighter {

@@ -112,7 +112,8 @@ void ManyLights::refineSettled(const FrameInputs& in, const Options& options, bo
   // The picture is settled when light on surfaces is, too.
   const bool waits =
       (options.useMeshes() && (!meshes_.isDone(options.antialias) || !in.changes.none())) ||
-      (options.useLinks() && (!linked_.isDone(options.antialias) || !in.changes.none()));
+      (options.useLinks() && (!linked_.isDone(options.antialias) || !in.changes.none())) ||
+      (options.useImperfect() && (!imperfect_.isDone() || !in.changes.none()));
   if (out.settled && !shadedNow && mayRefine && !waits) refine(in, options, stages, out, stats);
   out.refined = out.settled && (options.refine == 0 || refinement_.done() || !mayRefine);
 }
@@ -213,6 +214,30 @@ void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTi
         std::max({1, stats.framesUntilSettled, linked_.framesLeft(options.antialias)});
   stats.take(linked_.light());
   stats.raysTraced += linked_.light().counts().rays;
+  stages.end(kMeshesStage);
+}
+
+void ManyLights::addImperfect(const FrameInputs& in, const Options& options, StageTimer& stages,
+                              GiOutput& out, ManyLightsStats& stats) {
+  if (!options.useImperfect()) {
+    imperfect_.forget();
+    return;
+  }
+  const EndStage noStage = [](const StageSpec&) {};
+  imperfect_.update(in, options.imperfect(), noStage);
+  if (in.part == LightPart::direct) return;
+  ImperfectPicture::Direct direct{out.radiance, out.settled, {}, &gbufferIsCurrent_};
+  for (const LightSample& light : lights_.table().samples)
+    if (light.isLive) direct.lights.push_back(light);
+  out.radiance =
+      imperfect_.addTo(in, direct, options.antialias,
+                       {in.lightOnly, options.speculars, options.leastRoughness}, noStage);
+  if (!imperfect_.isDone()) refinement_.restart();
+  out.settled = out.settled && imperfect_.isDone();
+  out.refined = out.refined && out.settled;
+  if (!out.settled)
+    stats.framesUntilSettled = std::max({1, stats.framesUntilSettled, imperfect_.framesLeft()});
+  stats.raysTraced += imperfect_.raysTraced();
   stages.end(kMeshesStage);
 }
 

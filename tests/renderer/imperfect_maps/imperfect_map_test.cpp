@@ -130,8 +130,8 @@ struct LitRoom {
     backend->renderGBuffer(view, vec2(0.0f));
     for (int i = 0; i < 32; ++i) {
       const float u = static_cast<float>(i) / 32.0f;
-      lights.push_back(test::makeVpl(vec3(3.6f * u - 1.8f, 1.499f, std::sin(40.0f * u)),
-                                     vec3(0, -1, 0), shared::kVplCosine, u));
+      lights.push_back({test::makeVpl(vec3(3.6f * u - 1.8f, 1.499f, std::sin(40.0f * u)),
+                                      vec3(0, -1, 0), shared::kVplCosine, u)});
     }
   }
   Scene scene;
@@ -139,7 +139,7 @@ struct LitRoom {
   std::unique_ptr<RayCaster> rays;
   std::unique_ptr<Backend> backend = makeCpuBackend();
   View view = test::lookAt(vec3(1.8f, 0.9f, 1.8f), vec3(0.0f, -1.0f, 0.0f), 80, 60);
-  std::vector<shared::Vpl> lights;
+  std::vector<MapLight> lights;
 };
 
 void addClass(LitRoom& room, int c, const OccluderPool& pool, const InterleavedOptions& options,
@@ -200,9 +200,9 @@ TEST(InterleavedLight, TracedMapsShowWhatRaysShow) {
     for (int x = 0; x < room.view.width; ++x) {
       const GBufferPoint p = gbuffer.at(x, y);
       float light = 0.0f;
-      for (const shared::Vpl& v : room.lights) {
+      for (const auto& [v, clampDistance] : room.lights) {
         const float g =
-            shared::vplGeometry(v, p.position, p.normal, p.geometricNormal, options.clampDistance);
+            shared::vplGeometry(v, p.position, p.normal, p.geometricNormal, clampDistance);
         const vec3 from = p.position + rayEpsilon(p.position) * p.geometricNormal;
         if (g > 0.0f && !room.rays->occluded({from, 0.0f, vec3(v.position) - from, 1.0f}))
           light += g;

@@ -228,5 +228,21 @@ TEST(LightChoice, SamplesBetweenTexelsAreNearThem) {
   EXPECT_GT(moved, 20);
 }
 
+TEST(LightChoice, BoundsTheLightOfASample) {
+  const FollowedMap room{LampRoom().scene};
+  const std::vector<float> importance = bidirectionalImportance(room.map, samplesOf(room), 0.5f);
+  const auto lights = chooseLights(room.map, importance, {.count = 128}).lights;
+  const auto bounded = boundedLights(lights, 0.5f, 0.02f);
+  int farther = 0;
+  for (size_t i = 0; i < bounded.size(); ++i) {
+    const float d = bounded[i].clampDistance;
+    EXPECT_GE(d, 0.5f);
+    EXPECT_LE(luminance(bounded[i].vpl.intensity) / (d * d), 0.02001f);
+    farther += d > 0.5f;
+  }
+  EXPECT_GT(farther, 0);
+  EXPECT_EQ(boundedLights(lights, 0.5f, 0.0f)[3].clampDistance, 0.5f);
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -59,5 +59,16 @@ TEST(CarrierRule, MeshesWhereLinksWouldNeedManyTexels) {
   EXPECT_THAT(choice.reason, HasSubstr("links would need"));
 }
 
+TEST(CarrierRule, ImperfectShadowMapsInLevelsOfVeryManyTriangles) {
+  Scene scene = room();
+  // 2 · 400 · 800 triangles.
+  test::addMesh(scene, test::sphereMesh(0.5f, 400, 0.0f, test::addMaterial(scene, vec3(0.5f))));
+  const CarrierChoice choice = chosen(scene);
+  EXPECT_EQ(choice.carrier, BouncedCarrier::imperfect);
+  EXPECT_THAT(choice.reason, HasSubstr("many for meshes"));
+  scene.sky = vec3(1.0f);
+  EXPECT_EQ(chosen(scene).carrier, BouncedCarrier::meshes);
+}
+
 }  // namespace
 }  // namespace lamplighter

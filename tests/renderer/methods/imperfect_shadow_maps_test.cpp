@@ -6,7 +6,7 @@
 
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/imperfect_shadow_maps/imperfect_views.h"
+#include "renderer/methods/imperfect_light/imperfect_views.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -169,6 +169,19 @@ TEST(ImperfectShadowMaps, ShowsOnlyAPartOfTheLight) {
   const float sum = test::meanOf(direct).g + test::meanOf(indirect).g;
   EXPECT_GT(test::meanOf(indirect).g, 0.05f * test::meanOf(all).g);
   EXPECT_NEAR(sum, test::meanOf(all).g, 0.01f * sum);
+}
+
+// The same light, at the default values of its parameters.
+TEST(ImperfectShadowMaps, IsACarrierOfBouncedLightOfManyLights) {
+  ImperfectRoom room;
+  room.settings = Settings();
+  room.settings.set("antialias", 2);
+  const Image own = room.fresh();
+  room.settings.set("indirect", std::string("imperfect"));
+  FrameRenderer renderer(makeCpuBackend());
+  const Image carried =
+      test::settledPicture(renderer, room.scene, SceneChanges::all(), room.view, room.settings);
+  EXPECT_TRUE(test::sameBits(own, carried));
 }
 
 }  // namespace

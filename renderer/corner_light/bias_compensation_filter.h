@@ -5,8 +5,8 @@
 
 #include <span>
 
+#include "renderer/corner_light/bias_compensation.h"
 #include "renderer/image/image.h"
-#include "renderer/methods/many_lights/bias_compensation.h"
 
 namespace lamplighter {
 

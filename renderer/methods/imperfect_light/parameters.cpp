@@ -1,4 +1,4 @@
-#include "renderer/methods/imperfect_shadow_maps/parameters.h"
+#include "renderer/methods/imperfect_light/parameters.h"
 
 namespace lamplighter {
 

@@ -1,4 +1,4 @@
-#include "renderer/methods/many_lights/bias_compensation_filter.h"
+#include "renderer/corner_light/bias_compensation_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/tools/imperfect_maps/moving.h"
+#include "tests/tools/imperfect_shadow_maps/moving.h"
 
 #include <algorithm>
 #include <chrono>

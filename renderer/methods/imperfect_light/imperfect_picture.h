@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/corner_light/bias_compensation.h"
 #include "renderer/imperfect_maps/bidirectional_importance.h"
 #include "renderer/imperfect_maps/light_choice.h"
 #include "renderer/imperfect_maps/occluder_points.h"
 #include "renderer/imperfect_maps/rest_maps.h"
 #include "renderer/imperfect_maps/visible_importance.h"
 #include "renderer/methods/gi_method.h"
-#include "renderer/methods/imperfect_shadow_maps/parameters.h"
-#include "renderer/methods/many_lights/bias_compensation.h"
+#include "renderer/methods/imperfect_light/parameters.h"
 #include "renderer/surface_light/pixels/pixel_reflectance.h"
 
 namespace lamplighter {
@@ -46,12 +46,13 @@ class ImperfectPicture {
   const ReflectiveMap& map() const { return map_; }
   const std::vector<float>& importance() const { return importance_; }
   const ChosenLights& lights() const { return chosen_; }
+  std::span<const MapLight> mapLights() const { return lights_; }
   const OccluderPoints& points() const { return points_; }
   const View& view() const { return view_; }
   const ImperfectParameters& parameters() const { return parameters_; }
   OccluderPool pool() const;
   // Whether there is any light; then scene() and rays() are those of the last frame.
-  bool isReady() const { return isStarted_ && !vpls_.empty(); }
+  bool isReady() const { return isStarted_ && !lights_.empty(); }
   const RenderScene& scene() const { return *scene_; }
   const RayCaster& rays() const { return *caster_; }
   uint64_t raysTraced() const { return rays_; }  // in the last frame
@@ -59,6 +60,7 @@ class ImperfectPicture {
  private:
   void choose(const FrameInputs& in);
   LightChoiceOptions choiceOptions() const;
+  std::vector<MapLight> bounded(std::span<const SceneVpl> lights) const;
   void chooseForRest();
   void restart();
   void renderQuick(const FrameInputs& in, bool& gbufferIsCurrent);
@@ -80,7 +82,7 @@ class ImperfectPicture {
   std::vector<float> importance_;  // by texel of the map
   ViewSamples viewSamples_;
   ChosenLights chosen_;
-  std::vector<shared::Vpl> vpls_;
+  std::vector<MapLight> lights_;  // chosen_
   OccluderPoints points_;
   SurfacePictureOptions options_;
   bool isOutdated_ = true;  // the quick picture
@@ -91,8 +93,8 @@ class ImperfectPicture {
   // radiance, and row by row the light near surfaces that the clamp leaves out.
   VisibleImportance visible_;
   bool hasRestLights_ = false;
-  std::vector<SceneVpl> restSamples_;    // chosen by rays, too
-  std::vector<shared::Vpl> restLights_;  // the same
+  std::vector<SceneVpl> restSamples_;  // chosen by rays, too
+  std::vector<MapLight> restLights_;   // the same
   RestMaps restMaps_;
   std::vector<Image> irradiance_;
   Image sum_;

@@ -44,9 +44,7 @@ struct ImperfectParameters : PathParameters, FrameBudgetParameters, SurfaceParam
 
   // With the values of the paper, if asPublished.
   ImperfectParameters chosen() const;
-  InterleavedOptions interleaved() const {
-    return {{resolution, splats, fill}, interleave, clampDistance};
-  }
+  InterleavedOptions interleaved() const { return {{resolution, splats, fill}, interleave}; }
 };
 
 const ParameterTable<ImperfectParameters>& imperfectParameters();

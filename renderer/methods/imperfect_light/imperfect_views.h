@@ -1,7 +1,7 @@
 // Debug views of the method of paper 2.
 #pragma once
 
-#include "renderer/methods/imperfect_shadow_maps/imperfect_picture.h"
+#include "renderer/methods/imperfect_light/imperfect_picture.h"
 
 namespace lamplighter {
 

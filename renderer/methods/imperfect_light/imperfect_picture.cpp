@@ -1,13 +1,14 @@
-#include "renderer/methods/imperfect_shadow_maps/imperfect_picture.h"
+#include "renderer/methods/imperfect_light/imperfect_picture.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/methods/imperfect_shadow_maps/stages.h"
-#include "renderer/methods/many_lights/bias_compensation_filter.h"
+#include "renderer/corner_light/bias_compensation_filter.h"
+#include "renderer/methods/imperfect_light/stages.h"
 #include "renderer/methods/pixel_jitter.h"
 #include "renderer/sampling/view_importance.h"
 #include "renderer/surface_light/pixels/seen_triangle.h"
@@ -99,7 +100,7 @@ void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& 
     for (size_t i = 0; i < viewSamples_.size(); ++i)
       seen.emplace_back(viewSamples_.x[i], viewSamples_.y[i], viewSamples_.z[i]);
     if (parameters.twoSided)
-      for (const shared::Vpl& vpl : vpls_) sending.emplace_back(vpl.position);
+      for (const MapLight& light : lights_) sending.emplace_back(light.vpl.position);
   }
   const bool pointsChanged = points_.update(in.scene, in.changes, seen, sending, points);
   endStage(kOccluderPointsStage);
@@ -129,8 +130,7 @@ void ImperfectPicture::choose(const FrameInputs& in) {
                            parameters_.clampDistance, seed}));
   }
   chosen_ = chooseLights(map_, importance_, choiceOptions());
-  vpls_.clear();
-  for (const SceneVpl& light : chosen_.lights) vpls_.push_back(light.vpl);
+  lights_ = bounded(chosen_.lights);
   hasRestLights_ = false;
   visible_.restart(importance_);
 }
@@ -144,13 +144,19 @@ LightChoiceOptions ImperfectPicture::choiceOptions() const {
   return choice;
 }
 
+// No sample lights any place more than all together light the view in the mean.
+std::vector<MapLight> ImperfectPicture::bounded(std::span<const SceneVpl> lights) const {
+  const double mean = std::accumulate(importance_.begin(), importance_.end(), 0.0);
+  return boundedLights(lights, parameters_.clampDistance,
+                       parameters_.asPublished ? 0.0f : static_cast<float>(mean));
+}
+
 // The samples of the exact sum: chosen anew, with what stands between.
 void ImperfectPicture::chooseForRest() {
   const ChosenLights chosen =
       parameters_.raysChoose ? chooseLights(map_, visible_.importance(), choiceOptions()) : chosen_;
   restSamples_ = parameters_.betweenTexels ? chosen.lights : mergedLights(chosen);
-  restLights_.clear();
-  for (const SceneVpl& light : restSamples_) restLights_.push_back(light.vpl);
+  restLights_ = bounded(restSamples_);
   hasRestLights_ = true;
 }
 
@@ -166,7 +172,7 @@ size_t ImperfectPicture::restLightsAFrame() const {
 int ImperfectPicture::framesLeft() const {
   if (isExact_) return 0;
   return static_cast<int>(points_.pendingFrames()) + 1 +
-         static_cast<int>((hasRestLights_ ? restLights_.size() - summed_ : vpls_.size()) /
+         static_cast<int>((hasRestLights_ ? restLights_.size() - summed_ : lights_.size()) /
                           restLightsAFrame()) +
          (view_.height - cornerRow_) / rowsAFrame(view_);
 }
@@ -214,7 +220,7 @@ void ImperfectPicture::renderQuick(const FrameInputs& in, bool& gbufferIsCurrent
   gbufferIsCurrent = true;
   const GBufferView gbuffer = in.backend.hostGBuffer();
   const InterleavedOptions interleaved = parameters_.interleaved();
-  quick_ = blurredClasses(gbuffer, sumInterleaved(gbuffer, vpls_, pool(), interleaved),
+  quick_ = blurredClasses(gbuffer, sumInterleaved(gbuffer, lights_, pool(), interleaved),
                           interleaved.side);
   if (!reflectanceIsCurrent_) reflectance_ = reflectancesOf(in, view_, options_);
   reflectanceIsCurrent_ = true;

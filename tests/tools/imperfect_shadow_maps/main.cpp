@@ -1,7 +1,8 @@
 // How often imperfect shadow maps are wrong, and what their parts cost: docs/results/
 // imperfect_shadow_maps.md.
-//   lamplighter_imperfect_maps SCENE... [--views N]
-//   lamplighter_imperfect_maps SCENE --moving METHOD [--camera NAME] [--set NAME=VALUE]...
+//   lamplighter_imperfect_shadow_maps [PART_OF_A_SCENE'S_PATH...] [--views N]
+//   lamplighter_imperfect_shadow_maps --moving METHOD SCENE... [--camera NAME] [--set
+//   NAME=VALUE]...
 //     [--picture FILE]
 #include <algorithm>
 #include <chrono>
@@ -26,7 +27,9 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/tools/imperfect_maps/moving.h"
+#include "tests/support/folders.h"
+#include "tests/support/shared_files.h"
+#include "tests/tools/imperfect_shadow_maps/moving.h"
 
 namespace lamplighter {
 namespace {
@@ -289,7 +292,15 @@ int run(std::span<char*> arguments) {
     for (const fs::path& file : files) printMoving(file, camera, moving, set, picture);
     return 0;
   }
-  for (const fs::path& file : files) {
+  const fs::path own = test::sourceFolder() / "assets/scenes", shared = test::sharedScenes();
+  for (const fs::path& file :
+       {own / "pillar_room.gltf", own / "u_corridor.gltf", own / "corridor_statue.gltf",
+        shared / "zdm2-map/zdm2.glb", shared / "modern-hall/modern-hall.glb",
+        shared / "classroom/classroom.gltf", shared / "bathroom/bathroom.glb"}) {
+    const bool isWanted = files.empty() || std::ranges::any_of(files, [&](const fs::path& part) {
+                            return file.string().find(part.string()) != std::string::npos;
+                          });
+    if (!isWanted || !fs::exists(file)) continue;
     Level level(file);
     if (static_cast<int>(level.views.size()) < views) {
       const auto more =

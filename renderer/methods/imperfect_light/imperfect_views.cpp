@@ -1,4 +1,4 @@
-#include "renderer/methods/imperfect_shadow_maps/imperfect_views.h"
+#include "renderer/methods/imperfect_light/imperfect_views.h"
 
 #include <algorithm>
 #include <array>
@@ -202,7 +202,8 @@ ViewPicture errorView(const ImperfectPicture& in) {
       const vec3 at = s.position + rayEpsilon(s.position) * n;
       float pairs = 0.0f, dark = 0.0f, lit = 0.0f;
       for (size_t k = 0; k < some.size(); ++k) {
-        if (!(shared::vplGeometry(some[k], at, n, n, options.clampDistance) > 0.0f)) continue;
+        if (!(shared::vplGeometry(some[k], at, n, n, in.parameters().clampDistance) > 0.0f))
+          continue;
         const vec3 way = vec3(some[k].position) - at;
         const bool isBlocked = in.rays().occluded({at, 0.0f, way, 1.0f});
         const vec3 q = shared::vplToLight(some[k], -way);

@@ -1,4 +1,4 @@
-#include "renderer/methods/many_lights/bias_compensation.h"
+#include "renderer/corner_light/bias_compensation.h"
 
 #include <algorithm>
 #include <array>
