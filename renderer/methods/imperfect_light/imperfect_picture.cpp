@@ -4,52 +4,21 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/corner_light/bias_compensation_filter.h"
 #include "renderer/methods/imperfect_light/stages.h"
-#include "renderer/methods/pixel_jitter.h"
 #include "renderer/sampling/view_importance.h"
-#include "renderer/surface_light/pixels/seen_triangle.h"
 
 namespace lamplighter {
 namespace {
 
 // Blocks of points that maps take in turns.
 constexpr uint32_t kBlocks = 16;
-// Of an exact sum in a frame: lights × pixels, and texels of maps. Some 80 ms on two cores.
-constexpr double kSumsAFrame = 32e6, kTracedAFrame = 600e3;
-
 constexpr uint64_t kChoosingRaysAFrame = 100'000;
-constexpr int kCornerPixelsAFrame = 1 << 15;
-
-int rowsAFrame(const View& view) { return std::max(1, kCornerPixelsAFrame / view.width); }
 
 uint32_t powerBelow(int value) { return std::bit_floor(static_cast<uint32_t>(std::max(value, 1))); }
-
-// By pixel of the G-buffer: the share of even light that it sends to the eye, over π.
-std::vector<vec3> reflectancesOf(const FrameInputs& in, const View& view,
-                                 const SurfacePictureOptions& options) {
-  const GBufferView gbuffer = in.backend.hostGBuffer();
-  const auto width = static_cast<size_t>(view.width);
-  std::vector<vec3> out(width * static_cast<size_t>(view.height), vec3(0.0f));
-  tbb::parallel_for(0, view.height, [&](int y) {
-    for (int x = 0; x < view.width; ++x) {
-      if (!gbuffer.isHit(x, y)) continue;
-      const GBufferPoint p = gbuffer.at(x, y);
-      const Material& m =
-          in.scene.materials[static_cast<size_t>(in.scene.objects[p.object].material)];
-      // Only gloss needs the place on the triangle.
-      vec2 weights(0.0f);
-      if (options.speculars && mayBeGlossy(m)) weights = SeenTriangle(in.scene, p).weights;
-      const PixelReflectance r = reflectanceOf(in.scene, p, weights, view.eye, options);
-      out[static_cast<size_t>(y) * width + static_cast<size_t>(x)] =
-          (1.0f / kPi) * (r.diffuse + r.lobe);
-    }
-  });
-  return out;
-}
 
 }  // namespace
 
@@ -106,11 +75,11 @@ void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& 
   endStage(kOccluderPointsStage);
   isStarted_ = true;
   rays_ = map_.rays();
-  if (surfacesChanged) restMaps_.outdate();
+  if (surfacesChanged) exact_.outdateMaps();
   if (viewChanged || !in.changes.none()) reflectanceIsCurrent_ = false;
   if (choosesAnew || pointsChanged || viewChanged || !in.changes.none()) {
     isOutdated_ = true;
-    restart();
+    exact_.restart();
   }
 }
 
@@ -131,7 +100,7 @@ void ImperfectPicture::choose(const FrameInputs& in) {
   }
   chosen_ = chooseLights(map_, importance_, choiceOptions());
   lights_ = bounded(chosen_.lights);
-  hasRestLights_ = false;
+  exact_.dropLights();
   visible_.restart(importance_);
 }
 
@@ -155,33 +124,15 @@ std::vector<MapLight> ImperfectPicture::bounded(std::span<const SceneVpl> lights
 void ImperfectPicture::chooseForRest() {
   const ChosenLights chosen =
       parameters_.raysChoose ? chooseLights(map_, visible_.importance(), choiceOptions()) : chosen_;
-  restSamples_ = parameters_.betweenTexels ? chosen.lights : mergedLights(chosen);
-  restLights_ = bounded(restSamples_);
-  hasRestLights_ = true;
-}
-
-// Lights that the exact sum gets in a frame.
-size_t ImperfectPicture::restLightsAFrame() const {
-  const double pixels = static_cast<double>(view_.width) * static_cast<double>(view_.height);
-  double work = antialias_ * pixels / kSumsAFrame;
-  if (parameters_.settle == ImperfectRest::maps)
-    work += std::pow(static_cast<double>(parameters_.settledResolution), 2.0) / kTracedAFrame;
-  return static_cast<size_t>(std::clamp(1.0 / std::max(work, 1e-6), 8.0, 256.0));
+  std::vector<SceneVpl> samples = parameters_.betweenTexels ? chosen.lights : mergedLights(chosen);
+  std::vector<MapLight> lights = bounded(samples);
+  exact_.setLights(std::move(samples), std::move(lights));
 }
 
 int ImperfectPicture::framesLeft() const {
-  if (isExact_) return 0;
-  return static_cast<int>(points_.pendingFrames()) + 1 +
-         static_cast<int>((hasRestLights_ ? restLights_.size() - summed_ : lights_.size()) /
-                          restLightsAFrame()) +
-         (view_.height - cornerRow_) / rowsAFrame(view_);
-}
-
-void ImperfectPicture::restart() {
-  isExact_ = false;
-  summed_ = 0;
-  cornerRow_ = 0;
-  irradiance_.clear();
+  return exact_.isDone() ? 0
+                         : static_cast<int>(points_.pendingFrames()) +
+                               exact_.framesLeft(view_, parameters_, antialias_, lights_.size());
 }
 
 std::shared_ptr<RadianceImage> ImperfectPicture::addTo(const FrameInputs& in, const Direct& direct,
@@ -197,17 +148,17 @@ std::shared_ptr<RadianceImage> ImperfectPicture::addTo(const FrameInputs& in, co
   }
   bool isNew = direct.picture != under_ || !shown_;
   if (isOutdated_) {
-    restart();
+    exact_.restart();
     renderQuick(in, *direct.gbufferIsCurrent);
     isNew = true;
-  } else if (direct.isSettled && points_.isSettled() && !isExact_) {
+  } else if (direct.isSettled && points_.isSettled() && !exact_.isDone()) {
     goOn(in, direct);
-    isNew |= isExact_;
+    isNew |= exact_.isDone();
   }
   endStage(kInterleavedStage);
   if (!isNew) return shown_;
   Image out = direct.picture->pixels();
-  const Image& more = isExact_ ? sum_ : quick_;
+  const Image& more = exact_.isDone() ? exact_.radiance() : quick_;
   tbb::parallel_for(size_t{0}, out.pixels.size(),
                     [&](size_t i) { out.pixels[i] += more.pixels[i]; });
   under_ = direct.picture;
@@ -222,7 +173,7 @@ void ImperfectPicture::renderQuick(const FrameInputs& in, bool& gbufferIsCurrent
   const InterleavedOptions interleaved = parameters_.interleaved();
   quick_ = blurredClasses(gbuffer, sumInterleaved(gbuffer, lights_, pool(), interleaved),
                           interleaved.side);
-  if (!reflectanceIsCurrent_) reflectance_ = reflectancesOf(in, view_, options_);
+  if (!reflectanceIsCurrent_) reflectance_ = reflectancesOf(in, options_);
   reflectanceIsCurrent_ = true;
   tbb::parallel_for(size_t{0}, quick_.pixels.size(),
                     [&](size_t i) { quick_.pixels[i] *= reflectance_[i]; });
@@ -230,77 +181,15 @@ void ImperfectPicture::renderQuick(const FrameInputs& in, bool& gbufferIsCurrent
 }
 
 void ImperfectPicture::goOn(const FrameInputs& in, const Direct& direct) {
-  if (!hasRestLights_) {
-    if (parameters_.raysChoose && !visible_.isDone(map_))
-      rays_ += visible_.goOn(map_, viewSamples_, parameters_.clampDistance, in.services.rays(),
-                             kChoosingRaysAFrame);
-    if (!parameters_.raysChoose || visible_.isDone(map_)) chooseForRest();
-  } else if (summed_ < restLights_.size() || irradiance_.empty())
-    addRestLights(in, *direct.gbufferIsCurrent);
-  else
-    addCorners(in, direct.lights);
-}
-
-// Renders the G-buffer of a shifted picture. Returns whether it has no shift.
-bool ImperfectPicture::showShifted(const FrameInputs& in, size_t sample) {
-  const vec2 jitter =
-      antialias_ > 1 ? pixelJitter(static_cast<int>(sample), antialias_) : vec2(0.0f);
-  in.backend.renderGBuffer(view_, jitter);
-  return jitter == vec2(0.0f);
-}
-
-void ImperfectPicture::addRestLights(const FrameInputs& in, bool& gbufferIsCurrent) {
-  const InterleavedOptions options = parameters_.interleaved();
-  if (irradiance_.empty())
-    irradiance_.assign(static_cast<size_t>(antialias_), Image(view_.width, view_.height));
-  const auto lights = std::span(restLights_).subspan(summed_);
-  const auto now = lights.first(std::min(lights.size(), restLightsAFrame()));
-  std::vector<float> drawn;
-  int resolution = options.map.resolution;
-  const bool traces = parameters_.settle == ImperfectRest::maps;
-  if (traces) {
-    resolution = parameters_.settledResolution;
-    rays_ += restMaps_.draw(in.scene, in.services.rays(), now, resolution);
-  } else {
-    drawn = imperfectMaps(now, summed_, pool(), options.map);
+  if (exact_.hasLights()) {
+    rays_ += exact_.goOn(in, {parameters_, options_, antialias_, pool(), direct.lights},
+                         *direct.gbufferIsCurrent);
+    return;
   }
-  const std::span<const float> maps = traces ? restMaps_.maps() : std::span<const float>(drawn);
-  summed_ += now.size();
-  const bool isLast = summed_ == restLights_.size();
-  if (isLast) sum_ = Image(view_.width, view_.height);
-  for (size_t k = 0; k < irradiance_.size(); ++k) {
-    gbufferIsCurrent = showShifted(in, k);
-    addLights(in.backend.hostGBuffer(), now, maps, resolution, options, irradiance_[k]);
-    if (!isLast) continue;
-    const std::vector<vec3> reflectance = reflectancesOf(in, view_, options_);
-    const float share = 1.0f / static_cast<float>(irradiance_.size());
-    for (size_t i = 0; i < sum_.pixels.size(); ++i)
-      sum_.pixels[i] += share * reflectance[i] * irradiance_[k].pixels[i];
-  }
-  isExact_ = isLast && !hasCorners();
-}
-
-// The light that the clamp of 1/d² removes.
-void ImperfectPicture::addCorners(const FrameInputs& in, std::span<const SceneVpl> direct) {
-  std::vector<SceneVpl> lights(direct.begin(), direct.end());
-  lights.insert(lights.end(), restSamples_.begin(), restSamples_.end());
-  BiasCompensation::Options options;
-  options.bounces = parameters_.bounces;
-  options.emission = false;
-  options.clampDistance = parameters_.clampDistance;
-  options.seed = static_cast<uint32_t>(parameters_.seed);
-  options.white = options_.white;
-  options.speculars = options_.speculars;
-  options.leastRoughness = options_.leastRoughness;
-  const BiasCompensation compensation(in.scene, in.services.rays(), lights, options);
-  corners_.resize(sum_.pixels.size());
-  const int last = std::min(view_.height, cornerRow_ + rowsAFrame(view_));
-  compensation.findRows(view_, vec2(0.0f), cornerRow_, last, corners_);
-  cornerRow_ = last;
-  if (cornerRow_ < view_.height) return;
-  addSmoothed(corners_, filterRadius(1, view_.height), sum_);
-  corners_ = {};
-  isExact_ = true;
+  if (parameters_.raysChoose && !visible_.isDone(map_))
+    rays_ += visible_.goOn(map_, viewSamples_, parameters_.clampDistance, in.services.rays(),
+                           kChoosingRaysAFrame);
+  if (!parameters_.raysChoose || visible_.isDone(map_)) chooseForRest();
 }
 
 }  // namespace lamplighter

@@ -6,15 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/corner_light/bias_compensation.h"
 #include "renderer/imperfect_maps/bidirectional_importance.h"
 #include "renderer/imperfect_maps/light_choice.h"
 #include "renderer/imperfect_maps/occluder_points.h"
-#include "renderer/imperfect_maps/rest_maps.h"
 #include "renderer/imperfect_maps/visible_importance.h"
 #include "renderer/methods/gi_method.h"
-#include "renderer/methods/imperfect_light/parameters.h"
-#include "renderer/surface_light/pixels/pixel_reflectance.h"
+#include "renderer/methods/imperfect_light/exact_sum.h"
 
 namespace lamplighter {
 
@@ -39,7 +36,7 @@ class ImperfectPicture {
                                        const SurfacePictureOptions& options,
                                        const EndStage& endStage);
   // Whether the last picture has the exact sum.
-  bool isDone() const { return isExact_; }
+  bool isDone() const { return exact_.isDone(); }
   int framesLeft() const;
   void forget() { *this = ImperfectPicture(); }
 
@@ -62,14 +59,8 @@ class ImperfectPicture {
   LightChoiceOptions choiceOptions() const;
   std::vector<MapLight> bounded(std::span<const SceneVpl> lights) const;
   void chooseForRest();
-  void restart();
   void renderQuick(const FrameInputs& in, bool& gbufferIsCurrent);
   void goOn(const FrameInputs& in, const Direct& direct);
-  void addRestLights(const FrameInputs& in, bool& gbufferIsCurrent);
-  bool showShifted(const FrameInputs& in, size_t sample);
-  void addCorners(const FrameInputs& in, std::span<const SceneVpl> direct);
-  size_t restLightsAFrame() const;
-  bool hasCorners() const { return parameters_.cornerLight && parameters_.clampDistance > 0.0f; }
 
   ImperfectParameters parameters_;
   bool isStarted_ = false;
@@ -89,19 +80,9 @@ class ImperfectPicture {
   bool reflectanceIsCurrent_ = false;
   std::vector<vec3> reflectance_;  // of the pixels without a shift, over π
   Image quick_;                    // radiance by interleaved samples
-  // The exact sum: the irradiance of each shifted picture, by the first `summed_` lights; then its
-  // radiance, and row by row the light near surfaces that the clamp leaves out.
-  VisibleImportance visible_;
-  bool hasRestLights_ = false;
-  std::vector<SceneVpl> restSamples_;  // chosen by rays, too
-  std::vector<MapLight> restLights_;   // the same
-  RestMaps restMaps_;
-  std::vector<Image> irradiance_;
-  Image sum_;
-  size_t summed_ = 0;
-  int cornerRow_ = 0, antialias_ = 1;
-  std::vector<BiasCompensation::Pixel> corners_;
-  bool isExact_ = false;
+  VisibleImportance visible_;      // for the exact sum
+  ExactSum exact_;
+  int antialias_ = 1;
   std::shared_ptr<RadianceImage> under_, shown_;
 };
 
