@@ -14,10 +14,11 @@
 namespace lamplighter {
 namespace {
 
-// Those of many_lights, then those of bounced light.
+// Those of many_lights but for light on surfaces, then those of bounced light.
 std::span<const StageSpec> stagesOf() {
   static const std::vector<StageSpec> stages = [] {
     std::vector<StageSpec> all(std::begin(kManyLightsStages), std::end(kManyLightsStages));
+    std::erase(all, kMeshesStage);
     all.insert(all.end(), std::begin(kImperfectStages), std::end(kImperfectStages));
     return all;
   }();
@@ -45,6 +46,8 @@ class ImperfectShadowMaps final : public GiMethod {
                                    in.frame, in.stopwatch, in.stageTimes, in.lightOnly, in.part});
     ImperfectStats stats;
     static_cast<GiStats&>(stats) = out.stats;
+    std::erase_if(stats.stageSeconds,
+                  [](const StageTime& time) { return time.stage == kMeshesStage; });
     stats.lightSamples = static_cast<int>(out.stats.of("vpls"));
     if (parameters.bounces > 0)
       addBounced(in, parameters, out, stats);
