@@ -7,7 +7,7 @@
 
 #include "renderer/base/random.h"
 #include "renderer/base/simd.h"
-#include "renderer/sampling/view_importance.h"
+#include "renderer/sampling/view_points.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {

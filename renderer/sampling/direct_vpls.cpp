@@ -1,5 +1,8 @@
 #include "renderer/sampling/direct_vpls.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "renderer/base/random.h"
 #include "renderer/scene/ies/ies_profile.h"
 
@@ -10,6 +13,25 @@ namespace {
 constexpr float kWholeScene = 1.0001f;
 
 }  // namespace
+
+int directSamples(const VplCounts& counts) {
+  const int total = std::max(counts.total, 0);
+  const float share = std::clamp(counts.directShare, 0.0f, 1.0f);
+  return counts.bounces <= 0 ? total
+                             : static_cast<int>(std::lround(share * static_cast<float>(total)));
+}
+
+SampleShare directShareOf(const RenderScene& scene, const Emitter& e, const VplCounts& counts) {
+  if ((counts.withoutSky && e.kind == EmitterKind::sky && e.skySun == 0) ||
+      (counts.withoutSurfaces && e.kind == EmitterKind::surface))
+    return {};
+  const float weight = e.referenceFlux;
+  if (e.kind == EmitterKind::sky && e.skySun > 0) return {weight, 1, true};
+  if (e.kind != EmitterKind::punctual) return {weight, e.bothSides ? 2 : 1, false};
+  const PunctualLight& light = scene.punctuals[e.punctual].light;
+  if (light.profile) return {weight, static_cast<int>(light.profile->lobes.size()), true};
+  return {weight, light.kind == PunctualKind::point ? 2 : 1, true};
+}
 
 void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
                      std::vector<SceneVpl>& vpls) const {

@@ -4,8 +4,16 @@
 #include <vector>
 
 #include "renderer/sampling/path_tracing.h"
+#include "renderer/sampling/vpl_counts.h"
 
 namespace lamplighter {
+
+// The wanted number of direct samples.
+int directSamples(const VplCounts& counts);
+// By its flux, with the minimum number of samples of an emitter. The sides of a double-sided one
+// alternate; a point light is two hemispheres; one with a profile has its lobes. A sun is one
+// sample, independent of its tiles. Nothing for those that the counts leave out.
+SampleShare directShareOf(const RenderScene& scene, const Emitter& e, const VplCounts& counts);
 
 class DirectVpls {
  public:

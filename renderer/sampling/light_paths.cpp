@@ -8,7 +8,6 @@
 #include "renderer/sampling/direct_vpls.h"
 #include "renderer/sampling/path_reuse.h"
 #include "renderer/sampling/vpl_counts.h"
-#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -16,6 +15,13 @@ namespace {
 
 // Largest number of paths per wanted VPL: in an open scene most paths escape.
 constexpr size_t kPathsPerVpl = 16;
+
+// How much more urgent a path is that an object has moved into.
+constexpr float kAstrayFirst = 64.0f;
+
+// The part of the direct samples that is shared by flux alone: points on lamps light also what is
+// between the points of the view.
+constexpr double kFluxShare = 0.25;
 
 bool sameHit(const Hit& a, const Hit& b) {
   return a.object == b.object && a.triangle == b.triangle && a.t == b.t && a.u == b.u && a.v == b.v;
@@ -31,19 +37,6 @@ bool meetSame(const LightPath& a, const LightPath& b) {
                       return s.position == t.position && s.normal == t.normal &&
                              static_cast<bool>(s.hit) == static_cast<bool>(t.hit);
                     });
-}
-
-// The minimum number of samples of an emitter. The sides of a double-sided one alternate; a point
-// light is two hemispheres; one with a profile has its lobes. A sun is one sample, independent of
-// its tiles.
-SampleShare shareOf(const RenderScene& scene, const Emitter& e) {
-  const float weight = e.referenceFlux;
-  if (e.kind == EmitterKind::sky && e.skySun > 0) return {weight, 1, true};
-  if (e.kind != EmitterKind::punctual) return {weight, e.bothSides ? 2 : 1, false};
-  const PunctualLight& light = scene.punctuals[e.punctual].light;
-  if (light.profile) return {weight, static_cast<int>(light.profile->lobes.size()), true};
-  const PunctualKind kind = light.kind;
-  return {weight, kind == PunctualKind::point ? 2 : 1, true};
 }
 
 }  // namespace
@@ -83,22 +76,14 @@ VplSet LightPaths::generate(const RenderScene& scene, const RayCaster& rays, con
 void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
   lightSet_ = std::move(lights);
   const std::vector<Emitter>& emitters = lightSet_.emitters();
-  const int total = std::max(counts_.total, 0);
-  const float share = std::clamp(counts_.directShare, 0.0f, 1.0f);
-  const int direct = counts_.bounces <= 0
-                         ? total
-                         : static_cast<int>(std::lround(share * static_cast<float>(total)));
-  std::vector<SampleShare> directShares, indirectShares;
-  for (const Emitter& e : emitters) {
-    const bool isLeftOut = (counts_.withoutSky && e.kind == EmitterKind::sky && e.skySun == 0) ||
-                           (counts_.withoutSurfaces && e.kind == EmitterKind::surface);
-    directShares.push_back(isLeftOut ? SampleShare() : shareOf(scene, e));
-    indirectShares.push_back({isLeftOut ? 0.0f : e.referenceFlux, 1, false});
-  }
-  const SampleCounts directCounts = shareSamples(directShares, direct);
+  const int indirect = std::max(counts_.total, 0) - directSamples(counts_);
+  std::vector<SampleShare> indirectShares;
+  for (const Emitter& e : emitters)
+    indirectShares.push_back({directShareOf(scene, e, counts_).weight, 1, false});
+  const SampleCounts directCounts = shareDirectSamples(scene, {});
   const int candidates = std::max(counts_.candidates, 1);
-  const SampleCounts indirectCounts = shareSamples(
-      indirectShares, (counts_.paths > 0 ? counts_.paths : total - direct) * candidates);
+  const SampleCounts indirectCounts =
+      shareSamples(indirectShares, (counts_.paths > 0 ? counts_.paths : indirect) * candidates);
 
   const std::vector<VplId> ids = emitterIds(lightSet_);
   std::vector<Light> now(emitters.size());
@@ -107,8 +92,7 @@ void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
                                      [&](const Light& l) { return l.source.id == ids[i]; });
     if (before != lights_.end()) now[i] = std::move(*before);
     now[i].source = {static_cast<int>(i), ids[i]};
-    const bool isWholeSky = emitters[i].kind == EmitterKind::sky && emitters[i].skySun == 0;
-    now[i].direct = directCounts.counts[i] * (isWholeSky ? candidates : 1);
+    now[i].direct = directCounts.counts[i];
     now[i].directScale = directCounts.scale;
     now[i].wanted = counts_.bounces > 0 ? indirectCounts.counts[i] : 0;
     now[i].scale = indirectCounts.scale;
@@ -116,35 +100,72 @@ void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
   lights_ = std::move(now);
 }
 
+// The samples of each emitter, without the factor of candidates.
+SampleCounts LightPaths::shareDirectSamples(const RenderScene& scene,
+                                            std::span<const LampShare> lamps) const {
+  const std::vector<Emitter>& emitters = lightSet_.emitters();
+  std::vector<SampleShare> shares;
+  for (const Emitter& e : emitters) shares.push_back(directShareOf(scene, e, counts_));
+  if (lamps.size() != shares.size()) return shareSamples(shares, directSamples(counts_));
+  double flux = 0.0, importance = 0.0;
+  for (size_t i = 0; i < shares.size(); ++i) {
+    flux += shares[i].weight;
+    importance += lamps[i].importance;
+  }
+  for (size_t i = 0; i < shares.size(); ++i) {
+    SampleShare& share = shares[i];
+    if (!(share.weight > 0.0f)) continue;
+    const double mixed =
+        (1.0 - kFluxShare) * lamps[i].importance / importance + kFluxShare * share.weight / flux;
+    share.weight = lamps[i].isLeftOut ? 0.0f : nearestPowerOfTwo(static_cast<float>(mixed));
+    share.order = lamps[i].importance;
+  }
+  SampleCounts counts = shareSamples(shares, directSamples(counts_));
+  // Those that are served stand for what the others bring to the view, which is not their flux.
+  double all = 0.0, served = 0.0;
+  for (size_t i = 0; i < shares.size(); ++i) {
+    all += lamps[i].light;
+    if (counts.counts[i] > 0) served += lamps[i].light;
+  }
+  counts.scale = served > 0.0 ? static_cast<float>(all / served) : 1.0f;
+  return counts;
+}
+
 void LightPaths::findTouched(const PathWalker& walker, const RenderSceneChanges& changes,
                              std::span<const MoverFinder::Mover> movers) {
   std::vector<bool> hasMoved(walker.scene().objects.size(), false);
   for (const uint32_t object : changes.movedObjects) hasMoved[object] = true;
-  for (Light& light : lights_) {
-    for (Path& p : light.paths) {
-      const Departure now = walker.depart(light.source, p.path.index);
-      p.hasMoved = !now.startsAs(p.start);
-      if (!p.hasMoved)
-        p.path.flux =
-            p.isOwn ? now.flux : walker.fluxAlong(light.source, now, p.path.steps[0].direction);
-      if (changes.materials) takeMaterials(walker, light, p);
-      for (size_t s = 0; s < p.path.steps.size(); ++s) {
-        const PathStep& step = p.path.steps[s];
-        if (s >= p.broken) break;
-        if (step.hit && hasMoved[step.hit.object]) {
-          p.broken = s;
-          break;
-        }
-        if (s >= p.touched) continue;
-        // A moved light does not block its own paths: it is no longer at the start of the old path.
-        const bool isTouched =
-            std::any_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
-              const bool isOwnBody = s == 0 && p.hasMoved && m.node == light.source.id.light;
-              return !isOwnBody && (touches(step, m.before) || touches(step, m.after));
-            });
-        if (isTouched) p.touched = s;
-      }
+  for (Light& light : lights_)
+    tbb::parallel_for(size_t{0}, light.paths.size(), [&](size_t i) {
+      findTouched(walker, changes.materials, hasMoved, movers, light, light.paths[i]);
+    });
+}
+
+void LightPaths::findTouched(const PathWalker& walker, bool takesMaterials,
+                             const std::vector<bool>& hasMoved,
+                             std::span<const MoverFinder::Mover> movers, const Light& light,
+                             Path& p) {
+  const Departure now = walker.depart(light.source, p.path.index);
+  p.hasMoved = !now.startsAs(p.start);
+  if (!p.hasMoved)
+    p.path.flux =
+        p.isOwn ? now.flux : walker.fluxAlong(light.source, now, p.path.steps[0].direction);
+  if (takesMaterials) takeMaterials(walker, light, p);
+  for (size_t s = 0; s < p.path.steps.size(); ++s) {
+    const PathStep& step = p.path.steps[s];
+    if (s >= p.broken) break;
+    if (step.hit && hasMoved[step.hit.object]) {
+      p.broken = s;
+      break;
     }
+    if (s >= p.touched) continue;
+    // A moved light does not block its own paths: it is no longer at the start of the old path.
+    const bool isTouched =
+        std::any_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
+          const bool isOwnBody = s == 0 && p.hasMoved && m.node == light.source.id.light;
+          return !isOwnBody && (touches(step, m.before) || touches(step, m.after));
+        });
+    if (isTouched) p.touched = s;
   }
 }
 
@@ -168,24 +189,35 @@ void LightPaths::takeMaterials(const PathWalker& walker, const Light& light, Pat
 // own.
 std::vector<LightPaths::Task> LightPaths::tasksOf(bool isResting, int mostPaths) {
   std::vector<Task> stale, strange;
-  size_t count = 0;
+  size_t count = 0, order = 0;
   for (Light& light : lights_) {
     count += light.paths.size();
     for (Path& p : light.paths) {
+      ++order;
       if (!p.isStale() && !(isResting && !p.isOwn)) continue;
       const float brightness = std::max({p.path.flux.r, p.path.flux.g, p.path.flux.b});
+      // Where an object moved, VPLs may be in the air: those paths come first.
+      const bool isAstray = p.touched != kNoStep || p.broken != kNoStep;
+      const float urgency = (isAstray ? kAstrayFirst : 1.0f) * brightness;
       (p.isStale() ? stale : strange)
-          .push_back({&light, &p, brightness * static_cast<float>(++p.framesWaiting)});
+          .push_back({&light, &p, urgency * static_cast<float>(++p.framesWaiting), order});
     }
   }
   const auto take = [](std::vector<Task>& tasks, size_t most) {
     if (tasks.size() <= most) return;
-    std::stable_sort(tasks.begin(), tasks.end(),
-                     [](const Task& a, const Task& b) { return a.priority > b.priority; });
+    std::nth_element(tasks.begin(), tasks.begin() + static_cast<ptrdiff_t>(most), tasks.end(),
+                     [](const Task& a, const Task& b) {
+                       return a.priority != b.priority ? a.priority > b.priority
+                                                       : a.order < b.order;
+                     });
     tasks.resize(most);
   };
-  const size_t most =
-      mostPaths > 0 ? static_cast<size_t>(mostPaths) : std::numeric_limits<size_t>::max();
+  // With many candidates a frame goes on with a part of them.
+  const auto candidates = static_cast<size_t>(std::max(counts_.candidates, 1));
+  const size_t most = mostPaths > 0 ? static_cast<size_t>(mostPaths)
+                      : candidates > kCandidatesAFrame
+                          ? (count * kCandidatesAFrame + candidates - 1) / candidates
+                          : std::numeric_limits<size_t>::max();
   take(stale, most);
   take(strange, std::min(most - stale.size(), (count + kRestingFrames - 1) / kRestingFrames));
   stale.insert(stale.end(), strange.begin(), strange.end());
@@ -342,18 +374,28 @@ bool LightPaths::isExact(const PathWalker& walker) {
                      [&](Light& light) { return exactCount(walker, light, false) == light.count; });
 }
 
-VplSet LightPaths::set(const RenderScene& scene) const {
+VplSet LightPaths::set(const RenderScene& scene, bool isForChoice,
+                       std::span<const LampShare> lamps) const {
   VplSet result;
   result.rays = work_.rays;
   const SampleStreams numbers(counts_);
   const DirectVpls direct(scene, lightSet_, counts_);
-  for (const Light& light : lights_) {
-    direct.add(light.source, light.direct, light.directScale, result.vpls);
+  const bool isTurned = !isForChoice || counts_.candidates <= 1;
+  SampleCounts shared;
+  if (!lamps.empty()) shared = shareDirectSamples(scene, lamps);
+  for (size_t i = 0; i < lights_.size(); ++i) {
+    const Light& light = lights_[i];
+    const Emitter& e = lightSet_.emitters()[i];
+    const bool isWholeSky = e.kind == EmitterKind::sky && e.skySun == 0;
+    direct.add(light.source,
+               (lamps.empty() ? light.direct : shared.counts[i]) *
+                   (isWholeSky ? std::max(counts_.candidates, 1) : 1),
+               lamps.empty() ? light.directScale : shared.scale, result.vpls);
     const size_t first = result.vpls.size();
     const float share = light.scale / static_cast<float>(std::max<size_t>(light.count, 1));
-    for (size_t i = 0; i < light.count; ++i) {
-      const LightPath& path = light.paths[i].path;
-      addVpls(numbers, light.source.id, path, share, result.vpls);
+    for (size_t k = 0; k < light.count; ++k) {
+      const LightPath& path = light.paths[k].path;
+      addVpls(numbers, light.source.id, path, share, isTurned, result.vpls);
       result.pathIds.push_back({light.source.id.light, light.source.id.emitter, 1, path.index});
     }
     // A path is only cut if it is longer than all VPLs together.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "renderer/sampling/path_tracing.h"
+#include "renderer/sampling/vpl_counts.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/shadow_maps/refresh_scheduler.h"
 
@@ -28,6 +29,10 @@ class LightPaths {
   // A light has moved far if more than one in this number of its paths cannot stay. A light dragged
   // by hand loses one in fifteen per frame.
   static constexpr int kFarShare = 5;
+
+  // With more candidates (VplCounts), an update goes on with the paths of so many for each VPL, so
+  // that a drag costs no more; the others wait for the next ones.
+  static constexpr size_t kCandidatesAFrame = 8;
 
   struct Work {        // in the last update()
     int walked = 0;    // paths for which rays were traced
@@ -58,7 +63,12 @@ class LightPaths {
   const VplCounts& counts() const { return counts_; }
   // All VPLs, with new direct ones: sorted by emitter, direct ones first. At the reference
   // brightness of lights (light_gains.h). Suns are not divided into tiles.
-  VplSet set(const RenderScene& scene) const;
+  // `isForChoice`: without the tangents of indirect VPLs, which chooseForView() adds to those that
+  // it keeps if there are candidates.
+  // `lamps`: what each emitter brings to the view, by which direct samples are shared; empty: by
+  // flux.
+  VplSet set(const RenderScene& scene, bool isForChoice = false,
+             std::span<const LampShare> lamps = {}) const;
 
   // Whether the set is equal to that of generateVpls().
   bool isAtRest() const { return atRest_; }
@@ -88,6 +98,7 @@ class LightPaths {
     Light* light;
     Path* path;
     float priority;
+    size_t order;  // of equal priorities
     LightPath before{};
     int rays = 0;
     bool follows = false;  // its light has moved
@@ -95,8 +106,12 @@ class LightPaths {
   };
 
   void takeLights(const RenderScene& scene, LightSet lights);
+  SampleCounts shareDirectSamples(const RenderScene& scene, std::span<const LampShare> lamps) const;
   void findTouched(const PathWalker& walker, const RenderSceneChanges& changes,
                    std::span<const MoverFinder::Mover> movers);
+  static void findTouched(const PathWalker& walker, bool takesMaterials,
+                          const std::vector<bool>& hasMoved,
+                          std::span<const MoverFinder::Mover> movers, const Light& light, Path& p);
   static void takeMaterials(const PathWalker& walker, const Light& light, Path& p);
   void lookAgain(const PathWalker& walker, bool isResting, int mostPaths);
   std::vector<Task> tasksOf(bool isResting, int mostPaths);

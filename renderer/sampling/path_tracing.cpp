@@ -250,7 +250,7 @@ size_t vplCount(const LightPath& path) {
 }
 
 void addVpls(const SampleStreams& numbers, const VplId& light, const LightPath& path, float share,
-             std::vector<SceneVpl>& vpls) {
+             bool isTurned, std::vector<SceneVpl>& vpls) {
   VplId id = light;
   id.index = path.index;
   vec3 flux = path.flux;
@@ -259,8 +259,11 @@ void addVpls(const SampleStreams& numbers, const VplId& light, const LightPath& 
     flux *= s.albedo;
     if (isBlack(flux)) return;
     ++id.bounce;
-    vpls.push_back(
-        numbers.makeVpl(id, shared::kVplCosine, s.position, s.normal, share * (flux / kPi)));
+    const vec3 tangent = isTurned ? numbers.turnedTangent(id, s.normal) : vec3(0.0f);
+    SceneVpl& made = vpls.emplace_back();
+    made.vpl = {vec4(s.position, shared::kVplCosine), vec4(s.normal, 0.0f), vec4(tangent, 1.0f),
+                share * (flux / kPi), -1};
+    made.id = id;
   }
 }
 

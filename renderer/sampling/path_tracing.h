@@ -97,9 +97,9 @@ class PathWalker {
 };
 
 // Appends the VPLs of one of 1/share paths, in the order of its bounces. `light`: the id of its
-// Source.
+// Source. `isTurned`: with the tangents of their shadow maps; else those are 0.
 void addVpls(const SampleStreams& numbers, const VplId& light, const LightPath& path, float share,
-             std::vector<SceneVpl>& vpls);
+             bool isTurned, std::vector<SceneVpl>& vpls);
 // The number of VPLs that addVpls() appends.
 size_t vplCount(const LightPath& path);
 

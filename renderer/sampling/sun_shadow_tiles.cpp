@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/sampling/view_importance.h"
+#include "renderer/sampling/view_points.h"
 
 namespace lamplighter {
 namespace {

@@ -30,6 +30,12 @@ void addByWeight(std::span<const SampleShare> shares, const std::vector<size_t>&
 
 }  // namespace
 
+float nearestPowerOfTwo(float v) {
+  int exponent = 0;
+  constexpr float kRootOfHalf = 0.70710678f;
+  return std::ldexp(1.0f, std::frexp(v, &exponent) < kRootOfHalf ? exponent - 1 : exponent);
+}
+
 SampleCounts shareSamples(std::span<const SampleShare> shares, int total) {
   SampleCounts result;
   result.counts.assign(shares.size(), 0);
@@ -40,8 +46,10 @@ SampleCounts shareSamples(std::span<const SampleShare> shares, int total) {
     order.push_back(i);
     all += shares[i].weight;
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return shares[a].weight > shares[b].weight; });
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return shares[a].order != shares[b].order ? shares[a].order > shares[b].order
+                                              : shares[a].weight > shares[b].weight;
+  });
 
   int used = 0;
   double served = 0.0;

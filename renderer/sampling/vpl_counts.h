@@ -10,7 +10,19 @@ struct SampleShare {
   float weight = 0.0f;   // flux; 0: gets no samples
   int least = 1;         // minimum number of samples
   bool isFixed = false;  // gets no more than the minimum
+  float order = 0.0f;    // if there are too few samples, shares with more of it are served first
 };
+
+// What an emitter brings to the view (choice/lamp_importance.h).
+struct LampShare {
+  float importance = 0.0f;  // √mean of its squared share of the light at points of the view, [0, 1]
+  float light = 0.0f;       // mean of its share of the light there, [0, 1]
+  bool isLeftOut = false;  // gets no samples
+  bool operator==(const LampShare&) const = default;
+};
+
+// The nearest power of two, by ratio, of a positive value.
+float nearestPowerOfTwo(float v);
 
 struct SampleCounts {
   std::vector<int> counts;  // one for each share
@@ -19,7 +31,8 @@ struct SampleCounts {
 };
 
 // Gives each share its minimum and distributes the rest by weight (largest remainder first, ties in
-// order). If `total` is too small, the shares with the largest weights are served (at least one),
+// order). If `total` is too small, those with the largest order, then weight, are served (at least
+// one),
 // and `scale` compensates for the others.
 SampleCounts shareSamples(std::span<const SampleShare> shares, int total);
 

@@ -9,7 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/methods/imperfect_light/stages.h"
-#include "renderer/sampling/view_importance.h"
+#include "renderer/sampling/view_points.h"
 
 namespace lamplighter {
 namespace {

@@ -54,18 +54,14 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
   for (size_t i = 0; i < entries_.size(); ++i) before.emplace(entries_[i].wanted.id, i);
   std::map<VplId, float> brightnessOfSet;
   // Paths without VPLs count as shown.
-  std::map<VplId, bool> pathIsShown;
-  for (const VplId& path : paths) pathIsShown.emplace_hint(pathIsShown.end(), path, true);
+  std::vector<ShownPath> shown;
+  shown.reserve(paths.size() + wanted.size());
+  for (const VplId& path : paths) shown.push_back({path, true});
   for (const SceneVpl& w : wanted) {
     brightnessOfSet[w.id.set()] += brightness(w.vpl);
-    if (w.id.bounce > 0) pathIsShown[w.id.path()] = false;
+    if (w.id.bounce > 0) shown.push_back({w.id.path(), false});
   }
-  auto old = pathIsShown_.begin();  // both maps have the same order
-  for (auto& [path, isShown] : pathIsShown) {
-    while (old != pathIsShown_.end() && old->first < path) ++old;
-    isShown = isShown || (old != pathIsShown_.end() && old->first == path && old->second);
-  }
-  pathIsShown_ = std::move(pathIsShown);
+  takeShown(std::move(shown));
 
   std::vector<Entry> next;
   next.reserve(wanted.size());
@@ -104,6 +100,35 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
   giveSlots();
 }
 
+// The paths of a new set: those that have VPLs are shown if they were shown before.
+void LiveLights::takeShown(std::vector<ShownPath> shown) {
+  // Of equal paths, the one with VPLs comes first.
+  std::sort(shown.begin(), shown.end(), [](const ShownPath& a, const ShownPath& b) {
+    return a.path != b.path ? a.path < b.path : !a.isShown && b.isShown;
+  });
+  shown.erase(std::unique(shown.begin(), shown.end(),
+                          [](const ShownPath& a, const ShownPath& b) { return a.path == b.path; }),
+              shown.end());
+  auto old = pathIsShown_.begin();  // both have the same order
+  for (ShownPath& s : shown) {
+    while (old != pathIsShown_.end() && old->path < s.path) ++old;
+    s.isShown = s.isShown || (old != pathIsShown_.end() && old->path == s.path && old->isShown);
+  }
+  pathIsShown_ = std::move(shown);
+}
+
+size_t LiveLights::indexOfShown(const VplId& path) const {
+  const auto it = std::lower_bound(pathIsShown_.begin(), pathIsShown_.end(), path,
+                                   [](const ShownPath& s, const VplId& id) { return s.path < id; });
+  const bool isFound = it != pathIsShown_.end() && it->path == path;
+  return isFound ? static_cast<size_t>(it - pathIsShown_.begin()) : pathIsShown_.size();
+}
+
+void LiveLights::setShown(const VplId& path, bool isShown) {
+  const size_t i = indexOfShown(path);
+  if (i < pathIsShown_.size()) pathIsShown_[i].isShown = isShown;
+}
+
 void LiveLights::setGains(LightGains gains) {
   if (gains == gains_) return;
   gains_ = std::move(gains);
@@ -115,7 +140,7 @@ void LiveLights::setGains(LightGains gains) {
 void LiveLights::keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const {
   for (const auto& [id, index] : gone) {
     const Entry& e = entries_[index];
-    if (!e.isLive || id.bounce == 0 || !pathIsShown_.contains(id.path())) continue;
+    if (!e.isLive || id.bounce == 0 || !isKnown(id.path())) continue;
     next.push_back(e);
     next.back().isWanted = false;
     next.back().share = 0.0f;
@@ -172,7 +197,7 @@ void LiveLights::loseMaps() {
   for (Entry& e : entries_) {
     e.isLive = e.mapIsStale = e.isOff = false;
     e.staleShare = 0.0f;
-    if (e.wanted.id.bounce > 0) pathIsShown_[e.wanted.id.path()] = false;
+    if (e.wanted.id.bounce > 0) setShown(e.wanted.id.path(), false);
     e.hasMap = e.isFine = e.lacksMap = e.hasNoRoom = false;
   }
   std::fill(holds_.begin(), holds_.end(), uint8_t{0});
@@ -265,7 +290,7 @@ int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
         e.isLive = false;
         continue;
       }
-      if (e.wanted.id.bounce > 0) pathIsShown_[e.wanted.id.path()] = true;
+      if (e.wanted.id.bounce > 0) setShown(e.wanted.id.path(), true);
       if (!e.moves() && !e.mapIsStale) {
         takeBrightness(e);
         continue;
@@ -323,7 +348,8 @@ void LiveLights::sumShown() const {
     const VplId& id = e.wanted.id;
     Set& set = sets[id.set()];
     // The old version of a path counts as its new version.
-    if (isShown(e) || (!e.isLive && id.bounce > 0 && pathIsShown_.at(id.path()))) {
+    if (isShown(e) ||
+        (!e.isLive && id.bounce > 0 && pathIsShown_[indexOfShown(id.path())].isShown)) {
       set.share += e.share;
     } else if (e.wanted.isSample) {
       set.missing += e.share;

@@ -122,6 +122,15 @@ class LiveLights {
   std::vector<Group> pendingGroups(const RefreshWork& moved, const RefreshWork& stale);
   void pairUp(std::vector<Group>& groups) const;
   void keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const;
+  // An indirect path, and whether its wanted or its old version is shown.
+  struct ShownPath {
+    VplId path;
+    bool isShown = false;
+  };
+  void takeShown(std::vector<ShownPath> shown);
+  size_t indexOfShown(const VplId& path) const;  // in pathIsShown_, or its size
+  bool isKnown(const VplId& path) const { return indexOfShown(path) < pathIsShown_.size(); }
+  void setShown(const VplId& path, bool isShown);
   void giveSlots();
   template <typename IsMeant>
   int sharpen(ManyLightsKernels& kernels, int most, const IsMeant& isMeant);
@@ -137,9 +146,8 @@ class LiveLights {
 
   LightGains gains_;
   // at the reference brightness of their lights
-  std::vector<Entry> entries_;  // in the order of the wanted ones, then unwanted ones
-  // of indirect paths: whether the wanted or the old version is shown
-  std::map<VplId, bool> pathIsShown_;
+  std::vector<Entry> entries_;          // in the order of the wanted ones, then unwanted ones
+  std::vector<ShownPath> pathIsShown_;  // of the wanted set, sorted
   int slots_ = 0;
   bool changed_ = true;
   bool isSharper_ = false;  // fine maps were rendered

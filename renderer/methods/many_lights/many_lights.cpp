@@ -7,9 +7,9 @@
 #include "renderer/methods/many_lights/inspected_surfaces.h"
 #include "renderer/methods/many_lights/shading_options.h"
 #include "renderer/methods/many_lights/stages.h"
+#include "renderer/sampling/choice/view_importance.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/sun_shadow_tiles.h"
-#include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"
 #include "renderer/scene/surface.h"
 #include "renderer/visibility/shadow_map_demand.h"
@@ -224,6 +224,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
   if (surfacesChanged) {
     movers = in.services.movers();
     pointVisibility_.outdate(changes, movers);
+    lampImportance_.outdate(changes, movers);
   }
   // While the camera moves the samples are kept; when it rests they are chosen for its view.
   const bool isSame = started_ && !surfacesChanged && choiceIsCurrent_ && in.view == view_;
@@ -234,9 +235,10 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
       chosenFor != chosenFor_ || options.clampDistance != options_.clampDistance;
   chosenFor_ = chosenFor;
   if (paths_.update(in.scene, rays, changes, movers, options.counts(), options.maxPaths) ||
-      choosesOtherwise) {
-    VplSet set = chooseForView(paths_.set(in.scene), options.counts(), in.scene, rays, chosenFor,
-                               options.clampDistance, pointVisibility_);
+      choosesOtherwise || !lampsAreCurrent_) {
+    shareLamps(in, options, chosenFor, surfacesChanged && !changes.rebuilt);
+    VplSet set = chooseForView(paths_.set(in.scene, true, lampShares_), options.counts(), in.scene,
+                               rays, chosenFor, options.clampDistance, pointVisibility_);
     divideSuns(set.vpls, in.scene, rays, &chosenFor, options.sunMaps);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
@@ -265,6 +267,20 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
   mapRooms_ = rooms;
   kernels_->reserveShadowMaps(slots, rooms.coarse, rooms.fine);
   lights_.showOnlyMapped(!options.useVisibility());
+}
+
+// Shares out the samples on lamps for the view. While an edit goes on, they stay shared out as they
+// are unless much changes, so that few move; at rest they are those of a fresh start.
+void ManyLights::shareLamps(const FrameInputs& in, const Options& options, const View& view,
+                            bool isEditing) {
+  std::vector<LampShare> lamps =
+      lampImportance_.of(in.scene, in.services.rays(), paths_, view, options.clampDistance);
+  std::vector<VplId> ids = emitterIds(paths_.lights());
+  const bool stays = isEditing && started_ && ids == lampIds_ && isNear(lamps, lampShares_);
+  lampsAreCurrent_ = !stays || lamps == lampShares_;
+  if (stays) return;
+  lampShares_ = std::move(lamps);
+  lampIds_ = std::move(ids);
 }
 
 int ManyLights::refreshLights(const Options& options) {
@@ -314,7 +330,7 @@ void ManyLights::sharpenMaps(const Options& options, ManyLightsStats& stats) {
   const int scale = mapRooms_.scale();
   if (scale == 1) return;
   const bool isDone = lights_.pending() == 0 && stats.updates == 0 && stats.mapsRendered == 0 &&
-                      paths_.isAtRest() && choiceIsCurrent_;
+                      paths_.isAtRest() && choiceIsCurrent_ && lampsAreCurrent_;
   stats.mapsSharpened =
       isDone ? lights_.sharpenMaps(*kernels_, mapsAFrame(kernels_->traits(), options, scale))
              : lights_.sharpenHardLights(*kernels_, kHardMapsAFrame);

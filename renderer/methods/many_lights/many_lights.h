@@ -21,9 +21,10 @@
 #include "renderer/methods/many_lights/statistics.h"
 #include "renderer/methods/stage_timer.h"
 #include "renderer/prt/prt_lights.h"
+#include "renderer/sampling/choice/lamp_importance.h"
+#include "renderer/sampling/choice/point_visibility.h"
 #include "renderer/sampling/light_controls.h"
 #include "renderer/sampling/light_paths.h"
-#include "renderer/sampling/point_visibility.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -63,6 +64,7 @@ class ManyLights final : public GiMethod {
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        StageTimer& stages);
   LightSampleTable takePart(const FrameInputs& in, const Options& options, bool isNew);
+  void shareLamps(const FrameInputs& in, const Options& options, const View& view, bool isEditing);
   int refreshLights(const Options& options);
   void askForPatches(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats);
@@ -101,7 +103,11 @@ class ManyLights final : public GiMethod {
   std::optional<View> chosenFor_;  // the view for which VPLs were chosen by importance, if any
   bool choiceIsCurrent_ = true;    // chosenFor_ is the present view, not an earlier one
   LightPaths paths_;
-  PointVisibility pointVisibility_;  // from the view for which VPLs are chosen
+  PointVisibility pointVisibility_;    // from the view for which VPLs are chosen
+  LampImportance lampImportance_;      // likewise
+  std::vector<LampShare> lampShares_;  // by which direct samples are shared; empty: by flux
+  std::vector<VplId> lampIds_;         // their emitters
+  bool lampsAreCurrent_ = true;        // lampShares_ are those of a fresh start
   LiveLights lights_;
   int mapSlots_ = 0;  // slots in the backend, with their maps
   Options::MapRooms mapRooms_;

@@ -14,6 +14,9 @@ constexpr int kRefinementShare = 4;
 // The cpu backend stores texel indices as floats.
 constexpr int kLargestMap = 1024;
 
+// Candidates in all, so that paths fit into memory; but at least so many for each sample.
+constexpr int kMostCandidates = 1 << 16, kCheapCandidates = 8;
+
 size_t bytesOfMap(int resolution) {
   return sizeof(float) * static_cast<size_t>(resolution) * static_cast<size_t>(resolution);
 }
@@ -94,7 +97,7 @@ VplCounts ManyLightsOptions::counts() const {
   counts.directShare = directShare;
   counts.bounces = bounces;
   counts.seed = static_cast<uint32_t>(seed);
-  counts.candidates = importance;
+  counts.candidates = std::min(importance, std::max(kMostCandidates / vpls, kCheapCandidates));
   counts.withoutSky = useMeshes();
   counts.withoutSurfaces = withoutSurfaces;
   counts.sunMaps = sunMaps;

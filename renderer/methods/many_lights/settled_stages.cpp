@@ -47,7 +47,8 @@ bool ManyLights::isSamePicture(const FrameInputs& in, const Options& options) co
 // Whether the light samples and their maps are those that the scene wants.
 bool ManyLights::isAtRest() const {
   const bool isFine = mapRooms_.scale() == 1 || lights_.coarse() == 0;
-  return lights_.pending() == 0 && isFine && paths_.isAtRest() && choiceIsCurrent_;
+  return lights_.pending() == 0 && isFine && paths_.isAtRest() && choiceIsCurrent_ &&
+         lampsAreCurrent_;
 }
 
 // Shows the shares of a settled picture with the present brightness of lights, and does nothing

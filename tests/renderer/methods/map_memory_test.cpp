@@ -118,7 +118,8 @@ TEST(MapMemory, OnlyMapsThatTheViewLooksUpAreRendered) {
 TEST(MapMemory, ReplacingMapsCausesNoFlash) {
   TwoRooms rooms;
   FrameRenderer renderer(makeCpuBackend());
-  Settings settings = settingsOf("light_maps", 240, 3);
+  // The lamp of the room in view has most of the samples, and memory must hold all their maps.
+  Settings settings = settingsOf("light_maps", 210, 3);
   // Only maps change, neither the choice of light samples nor corner light of the settled picture.
   settings.set("importance", 1);
   settings.set("corner_light", false);

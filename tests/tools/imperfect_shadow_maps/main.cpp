@@ -23,7 +23,7 @@
 #include "renderer/imperfect_maps/light_choice.h"
 #include "renderer/imperfect_maps/occluder_points.h"
 #include "renderer/sampling/surface_sampler.h"
-#include "renderer/sampling/view_importance.h"
+#include "renderer/sampling/view_points.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"

@@ -1,4 +1,4 @@
-#include "renderer/sampling/point_visibility.h"
+#include "renderer/sampling/choice/point_visibility.h"
 
 #include <algorithm>
 #include <bit>
@@ -74,13 +74,13 @@ size_t PointVisibility::IdHash::operator()(const VplId& id) const {
 void PointVisibility::outdate(Row& row, std::span<const Obstacle> obstacles) const {
   const vec3 light(row.vpl.position);
   const bool isParallel = row.vpl.position.w == shared::kVplDirectional;
-  const float rounding = rounding_ + rayEpsilon(light);
+  const float rounding = points_.rounding() + rayEpsilon(light);
   for (size_t b = 0; b < kBlocks; ++b) {
     if (row.known[b] == 0) continue;
     if (isParallel) {
       for (uint32_t rest = row.known[b]; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<uint32_t>(std::countr_zero(rest));
-        const Ray ray = rayFrom(positions_.at(b * kLanes + lane), row.vpl);
+        const Ray ray = rayFrom(points_.positions().at(b * kLanes + lane), row.vpl);
         if (std::any_of(obstacles.begin(), obstacles.end(),
                         [&](const Obstacle& o) { return mayTouch(ray, o.box); }))
           row.known[b] &= static_cast<uint8_t>(~(1u << lane));
@@ -90,7 +90,8 @@ void PointVisibility::outdate(Row& row, std::span<const Obstacle> obstacles) con
     const auto load = [&](const std::array<float, kMostPoints>& v) {
       return hn::Load(kTag, &v[b * kLanes]);
     };
-    const Wide point{load(positions_.x), load(positions_.y), load(positions_.z)};
+    const PointBlocks::Vectors& positions = points_.positions();
+    const Wide point{load(positions.x), load(positions.y), load(positions.z)};
     const Wide way = wide(light) - point;
     const Floats half = wide(0.5f);
     const Wide halfWay{hn::Mul(way.x, half), hn::Mul(way.y, half), hn::Mul(way.z, half)};
@@ -122,15 +123,8 @@ void PointVisibility::outdate(const RenderSceneChanges& changes,
 void PointVisibility::takePoints(std::span<const SeenPoint> points) {
   same_ = {};
   for (size_t i = 0; i < std::min(points.size(), points_.size()); ++i)
-    if (points[i] == points_[i]) same_[i / kLanes] |= static_cast<uint8_t>(1u << i % kLanes);
-  points_.assign(points.begin(), points.end());
-  positions_ = normals_ = {};
-  rounding_ = 0.0f;
-  for (size_t i = 0; i < points.size(); ++i) {
-    positions_.set(i, points[i].position);
-    normals_.set(i, points[i].normal);
-    rounding_ = std::max(rounding_, rayEpsilon(points[i].position));
-  }
+    if (points[i] == points_.at(i)) same_[i / kLanes] |= static_cast<uint8_t>(1u << i % kLanes);
+  points_ = PointBlocks(points);
 }
 
 // Most lights keep their position in the list; only the others are searched.
@@ -173,38 +167,6 @@ void PointVisibility::take(const shared::Vpl& light, float clampDistance, size_t
   }
 }
 
-// Bit-equal to shared::vplGeometry.
-void PointVisibility::measure(Row& row, size_t block) const {
-  const size_t first = block * kLanes;
-  if (row.vpl.position.w != shared::kVplCosine) {
-    for (size_t i = first; i < std::min(first + kLanes, points_.size()); ++i)
-      row.geometry[i] = shared::vplGeometry(row.vpl, points_[i].position, points_[i].normal,
-                                            points_[i].normal, row.clampDistance);
-    return;
-  }
-  const auto load = [&](const Vectors& v) {
-    return Wide{hn::Load(kTag, &v.x[first]), hn::Load(kTag, &v.y[first]),
-                hn::Load(kTag, &v.z[first])};
-  };
-  const Floats zero = hn::Zero(kTag);
-  const Wide v = load(positions_) - wide(vec3(row.vpl.position));
-  const Floats z = dotUnfused(v, wide(vec3(row.vpl.normal))),
-               s = hn::Neg(dotUnfused(load(normals_), v));
-  const Floats d2 = dotUnfused(v, v), least = wide(row.clampDistance * row.clampDistance);
-  const Floats geometry = hn::Div(hn::Mul(s, z), hn::Mul(d2, hn::Max(d2, least)));
-  const auto isLit = hn::And(hn::Gt(z, zero), hn::Gt(s, zero));
-  hn::Store(hn::IfThenElseZero(isLit, geometry), kTag, &row.geometry[first]);
-}
-
-uint32_t PointVisibility::leftOut(uint32_t link, size_t block) const {
-  uint32_t lanes = 0;
-  if (link == 0) return lanes;
-  const size_t first = block * kLanes;
-  for (size_t i = first; i < std::min(first + kLanes, points_.size()); ++i)
-    if (isLeftOut(points_[i].leftOutBy, link)) lanes |= 1u << (i - first);
-  return lanes;
-}
-
 void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
   const Floats brightness = wide(luminance(row.vpl.intensity));
   const auto link = static_cast<uint32_t>(row.vpl.footprint.y);
@@ -214,16 +176,17 @@ void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
       hn::StoreU(hn::Zero(kTag), kTag, out + first);
       continue;
     }
-    if ((row.measured >> b & 1) == 0) measure(row, b);
+    if ((row.measured >> b & 1) == 0)
+      points_.geometry(row.vpl, row.clampDistance, b, &row.geometry[first]);
     row.measured |= 1u << b;
     const Floats bare = hn::Mul(brightness, hn::Load(kTag, &row.geometry[first]));
     const size_t count = std::min(points_.size() - first, kLanes);
     const uint32_t lit =
-        bitsOf(hn::Gt(bare, hn::Zero(kTag))) & ((1u << count) - 1) & ~leftOut(link, b);
+        bitsOf(hn::Gt(bare, hn::Zero(kTag))) & ((1u << count) - 1) & ~points_.leftOut(link, b);
     for (uint32_t rest = lit & ~uint32_t{row.known[b]}; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(rest));
       const uint32_t bit = 1u << lane;
-      const bool isSeen = !rays.occluded(rayFrom(points_[first + lane].position, row.vpl));
+      const bool isSeen = !rays.occluded(rayFrom(points_.at(first + lane).position, row.vpl));
       row.seen[b] = static_cast<uint8_t>(isSeen ? row.seen[b] | bit : row.seen[b] & ~bit);
       row.known[b] |= static_cast<uint8_t>(bit);
     }

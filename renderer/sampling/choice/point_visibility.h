@@ -9,21 +9,15 @@
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/sampling/choice/point_blocks.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/shadow_maps/refresh_scheduler.h"
 
 namespace lamplighter {
 
-// A point that the camera sees, offset from its surface to the visible side. World space, metres.
-struct SeenPoint {
-  vec3 position, normal;
-  uint32_t leftOutBy = 0;  // light_linking.h
-  bool operator==(const SeenPoint&) const = default;
-};
-
 class PointVisibility {
  public:
-  static constexpr size_t kMostPoints = 128;
+  static constexpr size_t kMostPoints = PointBlocks::kMostPoints;
 
   // Invalidates cached results after a change of the scene. Call it before the next irradiance().
   void outdate(const RenderSceneChanges& changes, std::span<const MoverFinder::Mover> movers);
@@ -36,7 +30,7 @@ class PointVisibility {
                                     float clampDistance);
 
  private:
-  static constexpr size_t kLanes = 8, kBlocks = kMostPoints / kLanes;
+  static constexpr size_t kLanes = PointBlocks::kLanes, kBlocks = PointBlocks::kBlocks;
   using Points = std::array<uint8_t, kBlocks>;  // one bit per point
   // A VPL and its cached results.
   struct Row {
@@ -48,12 +42,6 @@ class PointVisibility {
     alignas(
         32) std::array<float, kMostPoints> geometry{};  // E there if nothing does, over I [1/m²]
   };
-  // Arrays of x, y and z; unused entries are 0.
-  struct Vectors {
-    alignas(32) std::array<float, kMostPoints> x{}, y{}, z{};
-    void set(size_t i, const vec3& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
-    vec3 at(size_t i) const { return {x[i], y[i], z[i]}; }
-  };
   struct Obstacle;
   struct IdHash {
     size_t operator()(const VplId& id) const;
@@ -63,14 +51,10 @@ class PointVisibility {
   void findRows(std::span<const SceneVpl> lights);
   void take(const shared::Vpl& light, float clampDistance, size_t at, Row& row) const;
   void outdate(Row& row, std::span<const Obstacle> obstacles) const;
-  void measure(Row& row, size_t block) const;
-  uint32_t leftOut(uint32_t link, size_t block) const;
   void fill(Row& row, const RayCaster& rays, float* out) const;
 
-  std::vector<SeenPoint> points_;
-  Vectors positions_, normals_;
-  float rounding_ = 0.0f;  // rounding error of their coordinates [m]
-  Points same_{};          // points that are unchanged since the last call
+  PointBlocks points_;
+  Points same_{};  // points that are unchanged since the last call
   std::unordered_map<VplId, Row, IdHash> rows_;
   // All rows, in the order of the lights of the last call.
   struct Known {

@@ -9,24 +9,13 @@
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/sampling/point_visibility.h"
+#include "renderer/sampling/choice/point_visibility.h"
+#include "renderer/sampling/view_points.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
 
 namespace lamplighter {
-
-// At most `count` points that the camera sees, evenly distributed over the picture and slightly
-// beyond its edges. Each subrange of the result is also evenly distributed. Depends only on scene,
-// view and count; of the view's size only the aspect ratio matters.
-std::vector<SeenPoint> seenPoints(const RenderScene& scene, const RayCaster& rays, const View& view,
-                                  int count);
-
-// The view for which VPLs are chosen: eye and direction of the camera snapped to a grid (half a
-// metre, 15°), so that small camera motions change no VPL. If a surface is between the eye and the
-// grid point, the eye is not snapped. Depends only on the present camera and scene, not on earlier
-// ones.
-View steadyView(const View& view, const RayCaster& rays);
 
 // Importance of each candidate: √mean over the points of (E/ΣE)². E is its irradiance at the point,
 // with the shadow found by a ray and 1/d² clamped as in the picture; ΣE is the sum over all
@@ -36,22 +25,29 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
                                 std::span<const SceneVpl> others, std::span<const SeenPoint> points,
                                 const RayCaster& rays, float clampDistance, PointVisibility& kept);
 
+// The most that the weight of a chosen VPL, 1/(its probability), is of the mean weight, which is
+// the number of candidates over that of the chosen ones.
+constexpr float kLargestWeight = 4.0f;
+
 // Chooses `count` candidates, in their order, and scales each to the flux of those that it
 // replaces. The candidates are the first points of one sequence per emitter. Each region of the
 // scene takes the first of its points, as many as its importance requires, like sequences with
 // varying density made from ranks (Ostromoukhov, Donohue, Jodoin, "Fast Hierarchical Importance
 // Sampling with Blue Noise Properties", 2004). With uniform importance the result is the first
-// points, as without importance sampling. Importance is rounded to powers of 2, so that an edit
-// changes few VPLs and the brightness of few. The mean over scrambles equals the light of all
-// candidates.
+// points, as without importance sampling. Importance is rounded to steps of a factor of 2, so that
+// an edit changes few VPLs and the brightness of few. The mean over scrambles equals the light of
+// all candidates.
 std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
                                          std::span<const float> importance, int count);
 
-// Returns the set with the wanted number of candidates (VplCounts::candidates), chosen for the
-// view. The lights' own (direct) VPLs are unchanged and come first. `kept` is a cache that saves
-// rays; it does not change the result.
+// Returns the set with the wanted number of candidates (VplCounts::candidates), chosen for the view
+// in two stages: unshadowed_importance.h leaves three times the wanted number, of which
+// importanceOf() takes those to keep. The probabilities of both stages multiply, so the mean stays
+// the light of all candidates; their product is rounded, so kLargestWeight bounds it, too. The
+// lights' own (direct) VPLs are unchanged and come first. `visibility` is a cache that saves rays;
+// it does not change the result.
 VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderScene& scene,
                      const RayCaster& rays, const View& view, float clampDistance,
-                     PointVisibility& kept);
+                     PointVisibility& visibility);
 
 }  // namespace lamplighter

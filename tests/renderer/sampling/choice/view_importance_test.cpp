@@ -1,12 +1,16 @@
-#include "renderer/sampling/view_importance.h"
+#include "renderer/sampling/choice/view_importance.h"
 
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
 #include "renderer/base/random.h"
+#include "renderer/sampling/choice/unshadowed_importance.h"
+#include "shaders/shared/vpl_shading.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -158,6 +162,120 @@ TEST(ViewImportance, OneChangedImportanceChangesFewVpls) {
   for (const SceneVpl& a : after)
     for (const SceneVpl& b : before) same += a.id == b.id;
   EXPECT_GE(same, 98u);
+}
+
+// Of 24 candidates, of which rays test three, as of all.
+TEST(ViewImportance, TwoStagesKeepTheMeanAndErrLessThanFewCandidates) {
+  const test::LitScene lit(narrowGap());
+  const LightSet lights(lit.render);
+  std::vector<SeenPoint> points = seenPoints(lit.render, *lit.rays, kInTheDark, 148);
+  points.erase(points.begin(), points.begin() + 128);
+  constexpr uint32_t kSeeds = 16;
+  const auto errorOf = [&](int factor, double& mean) {
+    double squares = 0.0;
+    for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
+      VplCounts counts{100, 0.3f, 3, seed};
+      counts.candidates = 64;
+      const double all =
+          lightInTheDark(lit, points, generateVpls(lit.render, *lit.rays, lights, counts).vpls);
+      counts.candidates = factor;
+      const VplSet candidates = generateVpls(lit.render, *lit.rays, lights, counts);
+      PointVisibility nothing;
+      const VplSet some =
+          chooseForView(candidates, counts, lit.render, *lit.rays, kInTheDark, 0.5f, nothing);
+      EXPECT_LE(some.vpls.size(), 100u);
+      const double ratio = lightInTheDark(lit, points, some.vpls) / all;
+      squares += (ratio - 1.0) * (ratio - 1.0) / kSeeds;
+      mean += ratio / kSeeds;
+    }
+    return std::sqrt(squares);
+  };
+  double meanOfFew = 0.0, mean = 0.0;
+  const double few = errorOf(3, meanOfFew), many = errorOf(24, mean);
+  EXPECT_LT(many, few);
+  EXPECT_NEAR(mean, 1.0, 0.04);
+  RecordProperty("few", std::to_string(few));
+  RecordProperty("many", std::to_string(many));
+}
+
+// The largest weight of a chosen VPL, what it has more flux than as a candidate, over the mean.
+double largestWeight(const VplSet& candidates, const VplSet& chosen) {
+  std::map<VplId, float> before;
+  for (const SceneVpl& v : candidates.vpls)
+    if (v.id.bounce > 0) before[v.id] = v.vpl.intensity.r;
+  float most = 0.0f;
+  size_t kept = 0;
+  for (const SceneVpl& v : chosen.vpls) {
+    if (v.id.bounce == 0) continue;
+    ++kept;
+    most = std::max(most, v.vpl.intensity.r / before.at(v.id));
+  }
+  return static_cast<double>(most) * static_cast<double>(kept) / static_cast<double>(before.size());
+}
+
+// Up to the numbers of candidates of each importance, which are those of their probabilities only
+// on average.
+TEST(ViewImportance, NoWeightExceedsTheBound) {
+  constexpr double kFluctuation = 1.05;
+  double most = 0.0;
+  const test::AssetRoom room("default", 64, 48), corridor("corridor", 64, 48);
+  const Scene gap = narrowGap();
+  const std::pair<const Scene&, const View&> levels[] = {
+      {gap, kInTheDark}, {room.scene, room.view}, {corridor.scene, corridor.view}};
+  for (const auto& [scene, view] : levels) {
+    const test::LitScene lit(scene);
+    const LightSet lights(lit.render);
+    for (const int factor : {3, 8, 24, 64}) {
+      for (uint32_t seed = 1; seed <= 8; ++seed) {
+        VplCounts counts{200, 0.3f, 3, seed};
+        counts.candidates = factor;
+        const VplSet candidates = generateVpls(lit.render, *lit.rays, lights, counts);
+        PointVisibility nothing;
+        const VplSet chosen =
+            chooseForView(candidates, counts, lit.render, *lit.rays, view, 0.5f, nothing);
+        const double weight = largestWeight(candidates, chosen);
+        EXPECT_LE(weight, kFluctuation * static_cast<double>(kLargestWeight))
+            << factor << " candidates, seed " << seed;
+        most = std::max(most, weight);
+      }
+    }
+  }
+  EXPECT_GT(most, 0.5 * static_cast<double>(kLargestWeight));  // it is not far from what occurs
+  RecordProperty("most", std::to_string(most));
+}
+
+TEST(ViewImportance, UnshadowedImportanceIsThatOfTheGeometry) {
+  const test::LitScene lit(narrowGap());
+  VplCounts counts{300, 0.3f, 2, 1};
+  const std::vector<SceneVpl> vpls =
+      generateVpls(lit.render, *lit.rays, LightSet(lit.render), counts).vpls;
+  std::vector<SeenPoint> points = seenPoints(lit.render, *lit.rays, kInTheDark, 61);
+  points[5].leftOutBy = 1;
+  std::vector<SceneVpl> linked = vpls;
+  linked[7].vpl.footprint.y = 1.0f;
+  const auto lightAt = [&](const SceneVpl& v, const SeenPoint& at) {
+    const bool isOut = v.vpl.footprint.y == 1.0f && at.leftOutBy == 1;
+    return isOut ? 0.0
+                 : static_cast<double>(
+                       luminance(v.vpl.intensity) *
+                       shared::vplGeometry(v.vpl, at.position, at.normal, at.normal, 0.5f));
+  };
+  std::vector<double> whole(points.size(), 0.0);
+  double mean = 0.0;
+  for (size_t j = 0; j < points.size(); ++j) {
+    for (const SceneVpl& v : linked) whole[j] += lightAt(v, points[j]);
+    mean += whole[j] / static_cast<double>(points.size());
+  }
+  const std::vector<float> importance = unshadowedImportance(linked, points, 0.5f);
+  ASSERT_EQ(importance.size(), linked.size());
+  for (size_t i = 0; i < linked.size(); ++i) {
+    double squares = 0.0;
+    for (size_t j = 0; j < points.size(); ++j) {
+      const double share = lightAt(linked[i], points[j]) / std::max(whole[j], 0.01 * mean);
+      squares += share * share / static_cast<double>(points.size());
+    }
+    EXPECT_NEAR(importance[i], std::sqrt(squares), 1e-3 * std::sqrt(squares) + 1e-7) << i;
+  }
 }
 
 TEST(ViewImportance, SmallMovesOfTheCameraChangeNothing) {
