@@ -8,7 +8,7 @@
 #include "renderer/base/random.h"
 #include "renderer/base/simd.h"
 #include "renderer/sampling/view_points.h"
-#include "renderer/scene/surface.h"
+#include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
 namespace {
@@ -18,8 +18,8 @@ constexpr uint32_t kGridSet = 0xb1, kGuideSet = 0xb2;
 // The unit of x in the density min(1, 1/x²) of guided samples, which the paper leaves open, as a
 // share of the width of the picture.
 constexpr float kGuideUnit = 0.05f;
-// Texels whose normals differ by more, or that are further apart than this multiple of their
-// distance in the grid would let expect, are not averaged.
+// Texels are averaged if the cosine between their normals is at least the first, and if the sine of
+// the angle between their connection and the plane of the texel is at most the second.
 constexpr float kSameDirection = 0.8f, kSamePlane = 0.25f;
 
 float luminanceAt(const ReflectiveMap::Texels& t, size_t i) { return luminance(t.intensity(i)); }
@@ -31,10 +31,11 @@ struct Guided {
   bool isInside = true;
 };
 
-// Draws about a middle with a density in proportion to min(1, 1/x²), as far as the diagonal of the
-// picture. x is in `unit` pixels.
+// Draws about a middle, which may be outside of the picture, with a density in proportion to
+// min(1, 1/x²), as far as the farthest corner. x is in `unit` pixels.
 Guided drawNear(const vec2& middle, const vec2& size, float unit, vec2 u) {
-  const float far = std::max(glm::length(size) / unit, 1.0f);
+  const vec2 farthest = glm::max(glm::abs(middle), glm::abs(size - middle));
+  const float far = std::max(glm::length(farthest) / unit, 1.0f);
   const float disc = kPi, rest = 2.0f * kPi * std::log(far), all = disc + rest;
   const float angle = 2.0f * kPi * u.y;
   const float pick = u.x * all;
@@ -52,28 +53,23 @@ Guided drawNear(const vec2& middle, const vec2& size, float unit, vec2 u) {
 
 float geometryBetween(const vec3& from, const vec3& fromNormal, const vec3& to,
                       const vec3& toNormal, float clampDistance) {
-  const vec3 way = to - from;
-  const float d2 = glm::dot(way, way);
-  const float z = glm::dot(way, fromNormal), s = -glm::dot(way, toNormal);
-  if (!(z > 0.0f) || !(s > 0.0f)) return 0.0f;
-  return z * s / (d2 * std::max(d2, clampDistance * clampDistance));
-}
-
-void ViewSamples::add(const vec3& position, const vec3& normal, float albedoLuminance) {
-  x.push_back(position.x);
-  y.push_back(position.y);
-  z.push_back(position.z);
-  nx.push_back(normal.x);
-  ny.push_back(normal.y);
-  nz.push_back(normal.z);
-  albedo.push_back(albedoLuminance);
+  shared::Vpl vpl{};
+  vpl.position = vec4(from, shared::kVplCosine);
+  vpl.normal = vec4(fromNormal, 0.0f);
+  return shared::vplGeometry(vpl, to, toNormal, toNormal, clampDistance);
 }
 
 ViewSamples raySamples(const RenderScene& scene, const RayCaster& rays, const View& view,
                        int count) {
   ViewSamples out;
-  for (const SeenPoint& p : seenPoints(scene, rays, view, count))
-    out.add(p.position, p.normal, 1.0f);
+  for (const SeenPoint& p : seenPoints(scene, rays, view, count)) {
+    out.x.push_back(p.position.x);
+    out.y.push_back(p.position.y);
+    out.z.push_back(p.position.z);
+    out.nx.push_back(p.normal.x);
+    out.ny.push_back(p.normal.y);
+    out.nz.push_back(p.normal.z);
+  }
   return out;
 }
 
@@ -96,13 +92,12 @@ std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const ViewS
       if (hn::AllFalse(kTag, hn::Gt(brightness, zero))) continue;
       Floats8 sum = zero;
       for (size_t i = 0; i < samples.size(); ++i) {
-        const SimdVec3<Floats8> way = wide(vec3(samples.x[i], samples.y[i], samples.z[i])) - at;
+        const SimdVec3<Floats8> way = wide(samples.position(i)) - at;
         const Floats8 d2 = dotFused(way, way);
         const Floats8 z = hn::Max(dotFused(way, n), zero);
-        const Floats8 s = hn::Max(
-            hn::Neg(dotFused(way, wide(vec3(samples.nx[i], samples.ny[i], samples.nz[i])))), zero);
+        const Floats8 s = hn::Max(hn::Neg(dotFused(way, wide(samples.normal(i)))), zero);
         const Floats8 below = hn::Max(hn::Mul(d2, hn::Max(d2, least)), wide(1e-12f));
-        sum = hn::MulAdd(hn::Div(hn::Mul(z, s), below), wide(samples.albedo[i]), sum);
+        sum = hn::Add(sum, hn::Div(hn::Mul(z, s), below));
       }
       hn::StoreU(hn::Mul(hn::Mul(sum, brightness), wide(scale)), kTag, &out[first]);
     }
@@ -111,13 +106,13 @@ std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const ViewS
 }
 
 std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const GBufferView& gbuffer,
-                                           const View& view, const BidirectionalOptions& options) {
+                                           const View& view, const PixelSampleOptions& options) {
   std::vector<float> out(map.size(), 0.0f);
   const ReflectiveMap::Texels& t = map.texels();
   const vec2 size(gbuffer.width(), gbuffer.height());
   // The jittered grid is as square as the number of samples lets it be.
-  const int across = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(options.pixels))));
-  const int down = std::max(1, options.pixels / across);
+  const int across = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(options.count))));
+  const int down = std::max(1, options.count / across);
   tbb::parallel_for(0, map.columns(), [&](int column) {
     for (int row = 0; row < ReflectiveMap::kRows; ++row) {
       const size_t i = ReflectiveMap::indexOf(column, row);

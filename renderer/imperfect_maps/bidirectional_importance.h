@@ -12,10 +12,11 @@ namespace lamplighter {
 
 // Visible points that light is sent to.
 struct ViewSamples {
-  // World space; unit normals on the visible side; luminance of the albedo.
-  std::vector<float> x, y, z, nx, ny, nz, albedo;
+  // World space; unit normals on the visible side.
+  std::vector<float> x, y, z, nx, ny, nz;
   size_t size() const { return x.size(); }
-  void add(const vec3& position, const vec3& normal, float albedoLuminance);
+  vec3 position(size_t i) const { return {x[i], y[i], z[i]}; }
+  vec3 normal(size_t i) const { return {nx[i], ny[i], nz[i]}; }
 };
 
 // `count` points of the view and a little beyond its edges, by rays; fewer where the sky is seen.
@@ -26,25 +27,24 @@ ViewSamples raySamples(const RenderScene& scene, const RayCaster& rays, const Vi
 float geometryBetween(const vec3& from, const vec3& fromNormal, const vec3& to,
                       const vec3& toNormal, float clampDistance);
 
-struct BidirectionalOptions {
-  // Each texel has samples of its own, of a jittered grid of the pixels (paper 2, section 4.1). 0:
-  // all texels share the given ones.
-  int pixels = 0;
-  // They are drawn near the image of the texel (section 4.2).
-  bool guided = false;
-  float clampDistance = 0.5f;  // [m]
-  uint32_t seed = 1;
-  bool operator==(const BidirectionalOptions&) const = default;
-};
-
-// By texel: B, the mean over the samples of lum(I·ρ)·cos⁺·cos⁺/max(d², d0²) [W/m²].
+// By texel: B, the mean over the samples, which all texels share, of lum(I)·cos⁺·cos⁺/max(d², d0²)
+// [W/m²].
 std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const ViewSamples& samples,
                                            float clampDistance);
-// The same with options.pixels samples of the picture for each texel.
+
+struct PixelSampleOptions {
+  int count = 16;       // for each texel, of a jittered grid of the pixels (paper 2, section 4.1)
+  bool guided = false;  // drawn near the image of the texel (section 4.2)
+  float clampDistance = 0.5f;  // [m]
+  uint32_t seed = 1;
+};
+
+// The same with pixels as samples, other ones for each texel, and the luminance of what they
+// reflect: lum(I)·lum(ρ)·….
 std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const GBufferView& gbuffer,
-                                           const View& view, const BidirectionalOptions& options);
-// Averages noisy values over neighbours in a block of the map that lie on surfaces of the same
-// direction and distance (section 6.5).
+                                           const View& view, const PixelSampleOptions& options);
+// Averages noisy values over those of the eight neighbours in a block of the map that lie about on
+// the plane of the texel (section 6.5).
 std::vector<float> blurred(const ReflectiveMap& map, const std::vector<float>& importance);
 
 }  // namespace lamplighter

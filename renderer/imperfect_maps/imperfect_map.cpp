@@ -152,4 +152,14 @@ void ImperfectMap::pullPush() {
   std::ranges::copy(pyramid_[0], texels_.begin());
 }
 
+bool isInShadow(const shared::Vpl& light, std::span<const float> map, const vec3& at,
+                const vec3& normal, float bias) {
+  const float side = std::round(std::sqrt(static_cast<float>(map.size())));
+  const vec3 q = shared::vplToLight(light, at - vec3(light.position));
+  const vec2 texel = shared::shadowTexel(shared::octahedralEncode(q), side);
+  return shared::hemisphereOccluded(map[static_cast<size_t>(texel.y * side + texel.x)], q,
+                                    shared::vplToLight(light, normal),
+                                    shared::shadowTexelCentre(texel, side), bias, side);
+}
+
 }  // namespace lamplighter

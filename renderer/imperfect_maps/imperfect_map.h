@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/base/math.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
@@ -43,6 +44,11 @@ struct OccluderSpan {
   const float* area = nullptr;  // of the surface that the point stands for [m²]; 0: none
   size_t count = 0;
 };
+
+// Whether a map with any number of texels, as render() makes it, puts a point in shadow. `normal`:
+// of its surface, on the lit side. World space; `bias`: share of the distance.
+bool isInShadow(const shared::Vpl& light, std::span<const float> map, const vec3& at,
+                const vec3& normal, float bias);
 
 struct SplatBatch;
 

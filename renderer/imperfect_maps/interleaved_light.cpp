@@ -77,7 +77,61 @@ cpu::SumConstants constantsOf(const MapLight& light, const InterleavedOptions& o
   return out;
 }
 
+// The light of one class after the other, with the memory of a thread.
+class ClassSum {
+ public:
+  explicit ClassSum(const InterleavedOptions& options) : options_(options), maps_(options.map) {}
+
+  // Writes the pixels of class c. Each map is drawn and used before the next one, so that it stays
+  // in the first-level cache.
+  void find(const GBufferView& gbuffer, std::span<const MapLight> lights, const OccluderPool& pool,
+            int c, Image& out) {
+    const LightRange own = LightRange::ofClass(lights.size(), options_.classes(), c);
+    if (own.first == own.last) return;
+    takePixels(gbuffer, c);
+    for (size_t k = own.first; k < own.last; ++k) {
+      const std::span<const float> map = maps_.render(lights[k].vpl, pool.of(k));
+      addLight(cpu::makeLightRecord(lights[k].vpl, map.data(), options_.map.resolution),
+               constantsOf(lights[k], options_), packets_);
+    }
+    const float scale =
+        static_cast<float>(lights.size()) / static_cast<float>(own.last - own.first);
+    for (size_t i = 0; i < pixels_.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        out.pixels[pixels_[i]][k] = scale * packets_[i / kLanes].sum[k][i % kLanes];
+  }
+
+ private:
+  void takePixels(const GBufferView& gbuffer, int c) {
+    const auto width = static_cast<size_t>(gbuffer.width());
+    pixels_.clear();
+    packets_.clear();
+    for (int y = c / options_.side; y < gbuffer.height(); y += options_.side) {
+      for (int x = c % options_.side; x < gbuffer.width(); x += options_.side) {
+        if (!gbuffer.isHit(x, y)) continue;
+        const size_t lane = pixels_.size() % kLanes;
+        if (lane == 0) packets_.emplace_back();
+        pixels_.push_back(static_cast<size_t>(y) * width + static_cast<size_t>(x));
+        take(gbuffer.packets(), gbuffer.packets().index(x, y), packets_.back(),
+             static_cast<int>(lane));
+      }
+    }
+  }
+
+  InterleavedOptions options_;
+  ImperfectMap maps_;
+  std::vector<MapPacket> packets_;
+  std::vector<size_t> pixels_;  // index in the picture, by packet and lane
+};
+
 }  // namespace
+
+OccluderPool poolOf(const OccluderPoints& points) {
+  const OccluderPointArrays& a = points.arrays();
+  return {{a.px.data(), a.py.data(), a.pz.data(), a.nx.data(), a.ny.data(), a.nz.data(),
+           a.area.data(), a.px.size()},
+          points.options().pointsPerMap};
+}
 
 OccluderSpan OccluderPool::of(size_t light) const {
   if (points.count == 0 || pointsPerMap == 0) return points;
@@ -97,48 +151,13 @@ LightRange LightRange::ofClass(size_t count, int classes, int c) {
 
 Image sumInterleaved(const GBufferView& gbuffer, std::span<const MapLight> lights,
                      const OccluderPool& pool, const InterleavedOptions& options) {
-  const int width = gbuffer.width(), height = gbuffer.height(), side = options.side;
-  Image out(width, height);
-  const cpu::GBuffer& g = gbuffer.packets();
-  struct Scratch {
-    explicit Scratch(const ImperfectMapOptions& map) : maps(map) {}
-    ImperfectMap maps;
-    std::vector<MapPacket> packets;
-    std::vector<size_t> pixels;
-  };
-  tbb::enumerable_thread_specific<Scratch> scratch([&] { return Scratch(options.map); });
+  Image out(gbuffer.width(), gbuffer.height());
+  tbb::enumerable_thread_specific<ClassSum> sums([&] { return ClassSum(options); });
   tbb::parallel_for(
       tbb::blocked_range<int>(0, options.classes(), 1),
       [&](const tbb::blocked_range<int>& range) {
-        Scratch& own = scratch.local();
-        for (int c = range.begin(); c < range.end(); ++c) {
-          own.pixels.clear();
-          for (int y = c / side; y < height; y += side)
-            for (int x = c % side; x < width; x += side)
-              if (gbuffer.isHit(x, y))
-                own.pixels.push_back(static_cast<size_t>(y) * static_cast<size_t>(width) +
-                                     static_cast<size_t>(x));
-          own.packets.assign((own.pixels.size() + kLanes - 1) / kLanes, MapPacket{});
-          for (size_t i = 0; i < own.pixels.size(); ++i) {
-            const auto x = static_cast<int>(own.pixels[i] % static_cast<size_t>(width));
-            const auto y = static_cast<int>(own.pixels[i] / static_cast<size_t>(width));
-            take(g, g.index(x, y), own.packets[i / kLanes], static_cast<int>(i % kLanes));
-          }
-          const LightRange mine = LightRange::ofClass(lights.size(), options.classes(), c);
-          for (size_t k = mine.first; k < mine.last; ++k) {
-            const std::span<const float> map = own.maps.render(lights[k].vpl, pool.of(k));
-            addLight(cpu::makeLightRecord(lights[k].vpl, map.data(), options.map.resolution),
-                     constantsOf(lights[k], options), own.packets);
-          }
-          if (mine.first == mine.last) continue;
-          const float scale =
-              static_cast<float>(lights.size()) / static_cast<float>(mine.last - mine.first);
-          for (size_t i = 0; i < own.pixels.size(); ++i) {
-            const MapPacket& packet = own.packets[i / kLanes];
-            for (int k = 0; k < 3; ++k)
-              out.pixels[own.pixels[i]][k] = scale * packet.sum[k][i % kLanes];
-          }
-        }
+        for (int c = range.begin(); c < range.end(); ++c)
+          sums.local().find(gbuffer, lights, pool, c, out);
       },
       tbb::simple_partitioner());
   return out;

@@ -11,6 +11,7 @@
 #include "renderer/image/image.h"
 #include "renderer/imperfect_maps/imperfect_map.h"
 #include "renderer/imperfect_maps/map_light.h"
+#include "renderer/imperfect_maps/occluder_points.h"
 
 namespace lamplighter {
 
@@ -20,6 +21,9 @@ struct OccluderPool {
   size_t pointsPerMap = 8192;
   OccluderSpan of(size_t light) const;
 };
+
+// All points, which must outlive it.
+OccluderPool poolOf(const OccluderPoints& points);
 
 struct InterleavedOptions {
   ImperfectMapOptions map;

@@ -4,20 +4,12 @@
 
 #include <tbb/parallel_sort.h>
 
+#include "renderer/base/morton.h"
+
 namespace lamplighter {
 namespace {
 
 constexpr float kLargestSizeRatio = 4.0f, kLargestGroupRatio = 6.0f;
-constexpr uint32_t kMortonBits = 21;  // per axis
-
-// Moves bit i of a number of kMortonBits bits to bit 3 i.
-uint64_t withTwoGaps(uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffffull;
-  x = (x | x << 16) & 0x001f0000ff0000ffull;
-  x = (x | x << 8) & 0x100f00f00f00f00full;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
-  return (x | x << 2) & 0x1249249249249249ull;
-}
 
 struct OrderedTriangle {
   uint64_t key;

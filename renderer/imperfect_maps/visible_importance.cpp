@@ -29,8 +29,9 @@ uint64_t VisibleImportance::goOn(const ReflectiveMap& map, const ViewSamples& sa
   std::atomic<uint64_t> cast{0};
   tbb::parallel_for(column_, last, [&](int column) {
     uint64_t own = 0;
+    std::vector<float> sums;
     for (int row = 0; row < ReflectiveMap::kRows; ++row)
-      own += see(map, samples, clampDistance, rays, ReflectiveMap::indexOf(column, row));
+      own += see(map, samples, clampDistance, rays, ReflectiveMap::indexOf(column, row), sums);
     cast += own;
   });
   column_ = last;
@@ -38,17 +39,14 @@ uint64_t VisibleImportance::goOn(const ReflectiveMap& map, const ViewSamples& sa
 }
 
 uint64_t VisibleImportance::see(const ReflectiveMap& map, const ViewSamples& samples,
-                                float clampDistance, const RayCaster& rays, size_t texel) {
+                                float clampDistance, const RayCaster& rays, size_t texel,
+                                std::vector<float>& sums) {
   if (!(importance_[texel] > 0.0f)) return 0;
   const vec3 from = map.texels().position(texel), normal = map.texels().normal(texel);
-  // The running sum of what it brings to the samples.
-  std::vector<float> sums;
-  sums.reserve(samples.size());
+  sums.clear();
   float sum = 0.0f;
   for (size_t k = 0; k < samples.size(); ++k) {
-    sum += geometryBetween(from, normal, {samples.x[k], samples.y[k], samples.z[k]},
-                           {samples.nx[k], samples.ny[k], samples.nz[k]}, clampDistance) *
-           samples.albedo[k];
+    sum += geometryBetween(from, normal, samples.position(k), samples.normal(k), clampDistance);
     sums.push_back(sum);
   }
   if (!(sum > 0.0f)) return 0;
@@ -58,7 +56,7 @@ uint64_t VisibleImportance::see(const ReflectiveMap& map, const ViewSamples& sam
     const float at = sum * (static_cast<float>(i) + offset) / static_cast<float>(kRays);
     const auto k = static_cast<size_t>(
         std::min(std::ranges::upper_bound(sums, at), sums.end() - 1) - sums.begin());
-    const vec3 way = vec3(samples.x[k], samples.y[k], samples.z[k]) - from;
+    const vec3 way = samples.position(k) - from;
     arriving += rays.occluded({from, 0.0f, way, 1.0f}) ? 0 : 1;
   }
   importance_[texel] *= (static_cast<float>(arriving) + kArriving) / (kRays + kArriving);

@@ -28,8 +28,9 @@ class VisibleImportance {
   std::span<const float> importance() const { return importance_; }
 
  private:
+  // `sums`: receives the running sum of what the texel brings to the samples.
   uint64_t see(const ReflectiveMap& map, const ViewSamples& samples, float clampDistance,
-               const RayCaster& rays, size_t texel);
+               const RayCaster& rays, size_t texel, std::vector<float>& sums);
 
   std::vector<float> importance_;
   int column_ = 0;  // the first one that is not done

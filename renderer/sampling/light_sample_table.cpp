@@ -14,4 +14,11 @@ std::vector<shared::Vpl> LightSampleTable::summedInOrder() const {
   return vpls;
 }
 
+std::vector<SceneVpl> liveSamples(std::span<const LightSample> samples) {
+  std::vector<SceneVpl> live;
+  for (const LightSample& sample : samples)
+    if (sample.isLive) live.push_back(sample);
+  return live;
+}
+
 }  // namespace lamplighter

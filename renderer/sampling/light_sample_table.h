@@ -2,6 +2,7 @@
 // maps. All stages of the frame, and what the method shows of it (Inspection), read the same table.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "renderer/sampling/vpl_set.h"
@@ -15,6 +16,9 @@ struct LightSample : SceneVpl {
   bool isStale = false;     // it waits for an update
   int framesWaiting = 0;    // since it waits
 };
+
+// Those that are shown.
+std::vector<SceneVpl> liveSamples(std::span<const LightSample> samples);
 
 struct LightSampleTable {
   // In an order that does not depend on history: that of the wanted ones.

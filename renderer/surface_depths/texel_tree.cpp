@@ -5,22 +5,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/base/morton.h"
+
 namespace lamplighter {
 namespace {
 
 // The smallest cells of the grid [m], and their number along an axis: ±4 km.
 constexpr float kCell = 1.0f / 256.0f;
-constexpr int kCellBits = 21;
-constexpr float kCells = 1 << kCellBits;
-
-// The bits of a number of 21 bits, each followed by two zeros.
-uint64_t spread(uint64_t bits) {
-  bits = (bits | bits << 32) & 0x1f00000000ffffu;
-  bits = (bits | bits << 16) & 0x1f0000ff0000ffu;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00fu;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3u;
-  return (bits | bits << 2) & 0x1249249249249249u;
-}
+constexpr float kCells = 1 << kMortonBits;
 
 }  // namespace
 
@@ -32,7 +24,8 @@ TexelTree::Key TexelTree::keyOf(const SurfaceTexel& texel) {
   key.facing = static_cast<uint32_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
   for (int k = 0; k < 3; ++k) {
     const float cell = std::floor(texel.spot.position[k] / kCell) + 0.5f * kCells;
-    key.cell |= spread(static_cast<uint64_t>(std::clamp(cell, 0.0f, kCells - 1.0f))) << (2 - k);
+    key.cell |= withTwoGaps(static_cast<uint64_t>(std::clamp(cell, 0.0f, kCells - 1.0f)))
+                << (2 - k);
   }
   return key;
 }

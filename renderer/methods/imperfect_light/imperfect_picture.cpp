@@ -16,23 +16,21 @@ namespace {
 
 // Blocks of points that maps take in turns.
 constexpr uint32_t kBlocks = 16;
+// Visible places for the density of points, where view samples are pixels.
+constexpr int kPointViewSamples = 128;
+// Of the choice at rest.
 constexpr uint64_t kChoosingRaysAFrame = 100'000;
 
 uint32_t powerBelow(int value) { return std::bit_floor(static_cast<uint32_t>(std::max(value, 1))); }
 
 }  // namespace
 
-OccluderPool ImperfectPicture::pool() const {
-  const OccluderPointArrays& a = points_.arrays();
-  OccluderPool out;
-  out.points = {a.px.data(), a.py.data(), a.pz.data(),   a.nx.data(),
-                a.ny.data(), a.nz.data(), a.area.data(), a.px.size()};
-  out.pointsPerMap = points_.options().pointsPerMap;
-  return out;
-}
-
-void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& parameters,
+void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& wanted,
                               const EndStage& endStage) {
+  ImperfectParameters parameters = wanted;
+  parameters.resolution = static_cast<int>(powerBelow(wanted.resolution));
+  // The window changes it in each frame; no picture depends on it.
+  static_cast<FrameBudgetParameters&>(parameters) = {};
   const RayCaster& rays = in.services.rays();
   scene_ = &in.scene;
   caster_ = &rays;
@@ -41,7 +39,6 @@ void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& 
   std::span<const MoverFinder::Mover> movers;
   if (surfacesChanged) movers = in.services.movers();
   parameters_ = parameters;
-  parameters_.resolution = static_cast<int>(powerBelow(parameters.resolution));
   ReflectiveMapOptions options;
   options.texels = parameters.potentialLights;
   options.bounces = parameters.bounces;
@@ -60,18 +57,7 @@ void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& 
   if (choosesAnew) choose(in);
   endStage(kImportanceStage);
 
-  OccluderPointOptions points;
-  points.pointsPerMap = std::max(powerBelow(parameters.occluderPoints), 64u);
-  points.points = kBlocks * points.pointsPerMap;
-  points.importance.seed = static_cast<uint32_t>(parameters.seed);
-  std::vector<vec3> seen, sending;
-  if (parameters.adapt != ViewAdaption::off) {
-    for (size_t i = 0; i < viewSamples_.size(); ++i)
-      seen.emplace_back(viewSamples_.x[i], viewSamples_.y[i], viewSamples_.z[i]);
-    if (parameters.twoSided)
-      for (const MapLight& light : lights_) sending.emplace_back(light.vpl.position);
-  }
-  const bool pointsChanged = points_.update(in.scene, in.changes, seen, sending, points);
+  const bool pointsChanged = updatePoints(in);
   endStage(kOccluderPointsStage);
   isStarted_ = true;
   rays_ = map_.rays();
@@ -83,11 +69,25 @@ void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& 
   }
 }
 
+bool ImperfectPicture::updatePoints(const FrameInputs& in) {
+  OccluderPointOptions options;
+  options.pointsPerMap = std::max(powerBelow(parameters_.occluderPoints), 64u);
+  options.points = kBlocks * options.pointsPerMap;
+  options.importance.seed = static_cast<uint32_t>(parameters_.seed);
+  std::vector<vec3> seen, sending;
+  if (parameters_.adapt != ViewAdaption::off) {
+    for (size_t i = 0; i < viewSamples_.size(); ++i) seen.push_back(viewSamples_.position(i));
+    if (parameters_.twoSided)
+      for (const MapLight& light : lights_) sending.emplace_back(light.vpl.position);
+  }
+  return points_.update(in.scene, in.changes, seen, sending, options);
+}
+
 void ImperfectPicture::choose(const FrameInputs& in) {
   const auto seed = static_cast<uint32_t>(parameters_.seed);
-  viewSamples_ =
-      raySamples(in.scene, in.services.rays(), *chosenFor_,
-                 parameters_.viewChoice == ViewChoice::fixed ? parameters_.viewSamples : 128);
+  viewSamples_ = raySamples(
+      in.scene, in.services.rays(), *chosenFor_,
+      parameters_.viewChoice == ViewChoice::fixed ? parameters_.viewSamples : kPointViewSamples);
   if (parameters_.viewChoice == ViewChoice::fixed) {
     importance_ = bidirectionalImportance(map_, viewSamples_, parameters_.clampDistance);
   } else {
@@ -171,7 +171,7 @@ void ImperfectPicture::renderQuick(const FrameInputs& in, bool& gbufferIsCurrent
   gbufferIsCurrent = true;
   const GBufferView gbuffer = in.backend.hostGBuffer();
   const InterleavedOptions interleaved = parameters_.interleaved();
-  quick_ = blurredClasses(gbuffer, sumInterleaved(gbuffer, lights_, pool(), interleaved),
+  quick_ = blurredClasses(gbuffer, sumInterleaved(gbuffer, lights_, poolOf(points_), interleaved),
                           interleaved.side);
   if (!reflectanceIsCurrent_) reflectance_ = reflectancesOf(in, options_);
   reflectanceIsCurrent_ = true;
@@ -182,7 +182,7 @@ void ImperfectPicture::renderQuick(const FrameInputs& in, bool& gbufferIsCurrent
 
 void ImperfectPicture::goOn(const FrameInputs& in, const Direct& direct) {
   if (exact_.hasLights()) {
-    rays_ += exact_.goOn(in, {parameters_, options_, antialias_, pool(), direct.lights},
+    rays_ += exact_.goOn(in, {parameters_, options_, antialias_, poolOf(points_), direct.lights},
                          *direct.gbufferIsCurrent);
     return;
   }

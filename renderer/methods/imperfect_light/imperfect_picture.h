@@ -21,13 +21,12 @@ using EndStage = std::function<void(const StageSpec&)>;
 class ImperfectPicture {
  public:
   // To be called with each frame. Follows the scene and the view.
-  void update(const FrameInputs& in, const ImperfectParameters& parameters,
-              const EndStage& endStage);
+  void update(const FrameInputs& in, const ImperfectParameters& wanted, const EndStage& endStage);
   // The direct light of a frame.
   struct Direct {
     std::shared_ptr<RadianceImage> picture;
     bool isSettled = false;
-    std::vector<SceneVpl> lights;  // that light the surfaces
+    std::vector<SceneVpl> lights;  // that light the surfaces; only if it is settled
     bool* gbufferIsCurrent;        // whether the backend has that of the view without a shift
   };
   // The picture plus the bounced light. When it is settled, the exact sum is found, over several
@@ -47,7 +46,6 @@ class ImperfectPicture {
   const OccluderPoints& points() const { return points_; }
   const View& view() const { return view_; }
   const ImperfectParameters& parameters() const { return parameters_; }
-  OccluderPool pool() const;
   // Whether there is any light; then scene() and rays() are those of the last frame.
   bool isReady() const { return isStarted_ && !lights_.empty(); }
   const RenderScene& scene() const { return *scene_; }
@@ -55,6 +53,7 @@ class ImperfectPicture {
   uint64_t raysTraced() const { return rays_; }  // in the last frame
 
  private:
+  bool updatePoints(const FrameInputs& in);
   void choose(const FrameInputs& in);
   LightChoiceOptions choiceOptions() const;
   std::vector<MapLight> bounded(std::span<const SceneVpl> lights) const;

@@ -148,7 +148,8 @@ ViewPicture mapView(const ImperfectPicture& in) {
   std::vector<float> traced(texels);
   for (int k = 0; k < kMapsAcross * kMapsDown; ++k) {
     const size_t light = lights.size() * static_cast<size_t>(k) / (kMapsAcross * kMapsDown);
-    const std::span<const float> drawn = map.render(lights[light].vpl, in.pool().of(light));
+    const std::span<const float> drawn =
+        map.render(lights[light].vpl, poolOf(in.points()).of(light));
     cpu::traceShadowMap(in.rays(), lights[light].vpl, side, 0, side, traced);
     float most = 1e-6f;
     for (const float v : traced) most = std::max(most, std::min(v, 2.0f));
@@ -178,13 +179,12 @@ ViewPicture errorView(const ImperfectPicture& in) {
   const std::span<const SceneVpl> lights = in.lights().lights;
   if (lights.empty()) return out;
   const InterleavedOptions options = in.parameters().interleaved();
-  const auto side = static_cast<float>(options.map.resolution);
   ImperfectMap map(options.map);
   std::vector<std::vector<float>> maps;
   std::vector<shared::Vpl> some;
   for (size_t k = 0; k < std::min(kErrorLights, lights.size()); ++k) {
     const size_t light = lights.size() * k / std::min(kErrorLights, lights.size());
-    const auto drawn = map.render(lights[light].vpl, in.pool().of(light));
+    const auto drawn = map.render(lights[light].vpl, poolOf(in.points()).of(light));
     maps.emplace_back(drawn.begin(), drawn.end());
     some.push_back(lights[light].vpl);
   }
@@ -206,12 +206,7 @@ ViewPicture errorView(const ImperfectPicture& in) {
           continue;
         const vec3 way = vec3(some[k].position) - at;
         const bool isBlocked = in.rays().occluded({at, 0.0f, way, 1.0f});
-        const vec3 q = shared::vplToLight(some[k], -way);
-        const vec2 texel = shared::shadowTexel(shared::octahedralEncode(q), side);
-        const bool isStored = shared::hemisphereOccluded(
-            maps[k][static_cast<size_t>(texel.y * side + texel.x)], q,
-            shared::vplToLight(some[k], n), shared::shadowTexelCentre(texel, side),
-            options.shadowBias, side);
+        const bool isStored = isInShadow(some[k], maps[k], at, n, options.shadowBias);
         pairs += 1.0f;
         dark += isStored && !isBlocked ? 1.0f : 0.0f;
         lit += !isStored && isBlocked ? 1.0f : 0.0f;

@@ -89,8 +89,7 @@ class ImperfectShadowMaps final : public GiMethod {
     bounced_.update(in, parameters, endStage);
     if (in.part == LightPart::direct) return;
     ImperfectPicture::Direct direct{out.radiance, out.settled, {}, &direct_.gbufferIsCurrent()};
-    for (const LightSample& light : direct_.inspect().lights)
-      if (light.isLive) direct.lights.push_back(light);
+    if (out.settled) direct.lights = liveSamples(direct_.inspect().lights);
     out.radiance =
         bounced_.addTo(in, direct, manyLightsParameters().read(in.settings).antialias,
                        {in.lightOnly, parameters.speculars, parameters.leastRoughness}, endStage);

@@ -19,9 +19,7 @@ constexpr float kMostGain = 2.0f;
 void LiveBiasCompensation::goOn(const FrameInputs& in, const LightSampleTable& lights,
                                 BiasCompensation::Options options) {
   const View& view = in.view;
-  std::vector<SceneVpl> vpls;
-  for (const LightSample& sample : lights.samples)
-    if (sample.isLive) vpls.push_back(sample);
+  const std::vector<SceneVpl> vpls = liveSamples(lights.samples);
   const BiasCompensation biasCompensation(in.scene, in.services.rays(), vpls, options);
   pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
   const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));

@@ -228,8 +228,7 @@ void ManyLights::addImperfect(const FrameInputs& in, const Options& options, Sta
   imperfect_.update(in, options.imperfect(), noStage);
   if (in.part == LightPart::direct) return;
   ImperfectPicture::Direct direct{out.radiance, out.settled, {}, &gbufferIsCurrent_};
-  for (const LightSample& light : lights_.table().samples)
-    if (light.isLive) direct.lights.push_back(light);
+  if (out.settled) direct.lights = liveSamples(lights_.table().samples);
   out.radiance =
       imperfect_.addTo(in, direct, options.antialias,
                        {in.lightOnly, options.speculars, options.leastRoughness}, noStage);

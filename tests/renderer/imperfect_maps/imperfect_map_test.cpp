@@ -27,23 +27,9 @@ struct MapPoints {
     options.points = maps * count;
     points.update(scene, test::everythingRebuilt(), {}, {}, options);
   }
-  OccluderPool pool() const {
-    const OccluderPointArrays& a = points.arrays();
-    return {{a.px.data(), a.py.data(), a.pz.data(), a.nx.data(), a.ny.data(), a.nz.data(),
-             a.area.data(), a.px.size()},
-            points.options().pointsPerMap};
-  }
+  OccluderPool pool() const { return poolOf(points); }
   OccluderPoints points;
 };
-
-// Whether the map puts a point in shadow.
-bool isDark(const shared::Vpl& light, std::span<const float> map, const vec3& at, const vec3& n) {
-  const vec3 q = shared::vplToLight(light, at - vec3(light.position));
-  const vec2 texel = shared::shadowTexel(shared::octahedralEncode(q), kSide);
-  return shared::hemisphereOccluded(map[static_cast<size_t>(texel.y * kSide + texel.x)], q,
-                                    shared::vplToLight(light, n),
-                                    shared::shadowTexelCentre(texel, kSide), 0.002f, kSide);
-}
 
 TEST(ImperfectMap, ShadesNothingInAnEmptyConvexRoom) {
   Scene scene;
@@ -56,9 +42,9 @@ TEST(ImperfectMap, ShadesNothingInAnEmptyConvexRoom) {
   int dark = 0, all = 0;
   for (float x = -1.95f; x < 2.0f; x += 0.1f) {
     for (float z = -2.45f; z < 2.5f; z += 0.1f, ++all)
-      dark += isDark(light, texels, vec3(x, 1.5f, z), vec3(0, -1, 0));
+      dark += isInShadow(light, texels, vec3(x, 1.5f, z), vec3(0, -1, 0), 0.002f);
     for (float y = -1.4f; y < 1.5f; y += 0.1f, ++all)
-      dark += isDark(light, texels, vec3(x, y, 2.5f), vec3(0, 0, -1));
+      dark += isInShadow(light, texels, vec3(x, y, 2.5f), vec3(0, 0, -1), 0.002f);
   }
   EXPECT_LT(dark, all / 200) << all;
   // Nearly all texels see the room; holes are left in its corners.
@@ -88,7 +74,8 @@ TEST(ImperfectMap, BecomesTheTracedMapWithManyPoints) {
   EXPECT_LT(many, 0.5 * few);
 }
 
-// Points on a plane around a hole: it is filled with the depth of the plane. On a step, it is not.
+// Points on a plane around a hole: it is filled with the depth of the plane. On a step, it is open
+// or has the depth of one of both planes, and not one between them.
 TEST(ImperfectMap, FillsOnlyPlanes) {
   const shared::Vpl light = test::makeVpl(vec3(0.0f), vec3(0, 0, 1), shared::kVplCosine, 0.0f);
   const auto holeOf = [&](float stepHeight, HoleFilling fill) {
@@ -117,6 +104,9 @@ TEST(ImperfectMap, FillsOnlyPlanes) {
   EXPECT_NEAR(holeOf(0.0f, HoleFilling::planes), 0.5f, 0.01f);
   EXPECT_GT(holeOf(0.0f, HoleFilling::pullPush), 0.4f);
   EXPECT_GT(holeOf(1.0f, HoleFilling::pullPush), 0.3f);
+  const float kept = holeOf(1.0f, HoleFilling::planes);
+  EXPECT_TRUE(kept == 0.0f || std::abs(kept - 0.5f) < 0.01f || std::abs(kept - 1.0f / 3.0f) < 0.01f)
+      << kept;
 }
 
 // Lights above the floor of a room with a box.
@@ -168,7 +158,7 @@ TEST(InterleavedLight, ClassesTogetherAreThePlainSum) {
   Image classes(room.view.width, room.view.height);
   for (int c = 0; c < divided.classes(); ++c) addClass(room, c, points.pool(), divided, classes);
   EXPECT_GT(test::meanOf(all).g, 0.1f);
-  EXPECT_LT(largestDifference(all, classes), 1e-5 * static_cast<double>(test::meanOf(all).g) * 100);
+  EXPECT_LT(largestDifference(all, classes), 1e-3 * static_cast<double>(test::meanOf(all).g));
 }
 
 TEST(InterleavedLight, EachPixelHasTheLightsOfItsClass) {

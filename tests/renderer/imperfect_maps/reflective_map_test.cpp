@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/random.h"
 #include "renderer/imperfect_maps/bidirectional_importance.h"
 #include "renderer/imperfect_maps/light_choice.h"
@@ -173,6 +174,26 @@ TEST(BidirectionalImportance, IsTheMeanOverViewSamples) {
         sum / static_cast<double>(samples.size()) * static_cast<double>(luminance(t.intensity(i)));
     EXPECT_NEAR(importance[i], expected, 1e-4 * expected + 1e-9) << i;
   }
+}
+
+// Where samples are drawn is no matter in the mean: near the image of a texel or evenly.
+TEST(BidirectionalImportance, GuidedSamplesHaveTheSameMean) {
+  const FollowedMap room{LampRoom().scene};
+  const View view = test::lookAt(vec3(-1.5f, 0.0f, -1.5f), vec3(1.0f, -1.0f, 1.0f), 64, 48);
+  const std::unique_ptr<Backend> backend = makeCpuBackend();
+  backend->setScene(room.render, test::everythingRebuilt(), *room.rays);
+  backend->renderGBuffer(view, vec2(0.0f));
+  const auto sum = [&](bool isGuided) {
+    double all = 0.0;
+    for (uint32_t seed = 1; seed <= 8; ++seed)
+      for (const float b : bidirectionalImportance(room.map, backend->hostGBuffer(), view,
+                                                   {.count = 16, .guided = isGuided, .seed = seed}))
+        all += static_cast<double>(b);
+    return all;
+  };
+  const double even = sum(false);
+  EXPECT_GT(even, 0.0);
+  EXPECT_NEAR(sum(true), even, 0.03 * even);
 }
 
 // The mean over seeds of the light of the chosen samples is that of all.

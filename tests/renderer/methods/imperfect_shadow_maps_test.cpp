@@ -1,33 +1,17 @@
 // The method of paper 2: samples chosen for the view, with shadow maps of points.
-#include <functional>
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/imperfect_light/imperfect_views.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/method_room.h"
 
 namespace lamplighter {
 namespace {
 
-struct ImperfectRoom {
-  Scene scene;
-  NodeId box = kNoNode, lamp = kNoNode;
-  View view = test::lookAt(vec3(1.4f, 0.7f, 1.9f), vec3(0.0f, -0.6f, 0.0f), 64, 48);
-  Settings settings;
-  FrameRenderer renderer{makeCpuBackend()};
-
-  ImperfectRoom() {
-    const int white = test::addMaterial(scene, vec3(0.7f));
-    const int red = test::addMaterial(scene, vec3(0.8f, 0.2f, 0.1f));
-    test::addMesh(scene, test::roomMesh(vec3(4.0f, 3.0f, 4.0f), white));
-    box = test::addMesh(scene, test::boxMesh(vec3(0.8f), red), vec3(0.0f, -1.1f, 0.0f));
-    lamp = test::addRectangleLight(scene, vec3(-0.6f, 1.3f, 0.0f), vec2(0.8f), vec3(5.0f));
-    settings.set("bounces", 2);
+struct ImperfectRoom : test::MethodRoom {
+  ImperfectRoom() : MethodRoom("imperfect_shadow_maps") {
     settings.set("bounced_samples", 256);
     settings.set("potential_lights", 4096);
     settings.set("occluder_points", 1024);
@@ -35,29 +19,6 @@ struct ImperfectRoom {
     settings.set("antialias", 2);
   }
 
-  GiOutput frame(const SceneChanges& changes) {
-    return renderer.render({scene, changes, view, "imperfect_shadow_maps", settings});
-  }
-  Image settledBy(FrameRenderer& by, SceneChanges changes) {
-    GiOutput out;
-    for (int i = 0; i < 3000 && !out.settled; ++i) {
-      out = by.render({scene, changes, view, "imperfect_shadow_maps", settings});
-      changes = {};
-    }
-    EXPECT_TRUE(out.settled);
-    return out.radiance->pixels();
-  }
-  Image picture(const SceneChanges& changes = {}) { return settledBy(renderer, changes); }
-  Image fresh() {
-    FrameRenderer own(makeCpuBackend());
-    return settledBy(own, SceneChanges::all());
-  }
-  SceneChanges edit(const std::function<void(Scene&)>& change) {
-    const Scene old = scene;
-    change(scene);
-    return compare(old, scene);
-  }
-  Image edited(const std::function<void(Scene&)>& change) { return picture(edit(change)); }
   Image reference() { return averageBlocks(test::renderReference(scene, view, 1024, 2), 4); }
 };
 
@@ -119,6 +80,30 @@ TEST(ImperfectShadowMaps, DoesNotDependOnThreadsOrTheWayOfTheCamera) {
   EXPECT_TRUE(test::sameBits(before, room.picture()));
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_TRUE(test::sameBits(before, room.fresh()));
+}
+
+// The window changes the budget of each frame.
+TEST(ImperfectShadowMaps, SettlesWhileTheBudgetChanges) {
+  ImperfectRoom room;
+  const Image expected = room.fresh();
+  GiOutput out = room.frame(SceneChanges::all());
+  for (int i = 0; i < 300 && !out.settled; ++i) {
+    room.settings.set("updates", 50 + i % 7);
+    out = room.frame({});
+  }
+  ASSERT_TRUE(out.settled);
+  EXPECT_TRUE(test::sameBits(out.radiance->pixels(), expected));
+}
+
+// Sizes of maps and numbers of points that are no powers of two.
+TEST(ImperfectShadowMaps, SettlesWithAnySizes) {
+  ImperfectRoom room;
+  room.settings.set("imperfect_resolution", 50);
+  room.settings.set("occluder_points", 1000);
+  room.settings.set("settled_resolution", 50);
+  room.settings.set("interleave", 3);
+  room.settings.set("bounced_samples", 100);
+  room.picture(SceneChanges::all());
 }
 
 TEST(ImperfectShadowMaps, WorksAsPublished) {

@@ -1,61 +1,21 @@
 // The method of paper 3: bounced light along kept links.
 #include <filesystem>
-#include <functional>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/method_room.h"
 
 namespace lamplighter {
 namespace {
 
-struct BouncedRoom {
-  Scene scene;
-  NodeId box = kNoNode, lamp = kNoNode;
-  View view = test::lookAt(vec3(1.4f, 0.7f, 1.9f), vec3(0.0f, -0.6f, 0.0f), 64, 48);
-  Settings settings;
-  FrameRenderer renderer{makeCpuBackend()};
-  double rays = 0;  // of texels, of the last picture
-
-  BouncedRoom() {
-    const int white = test::addMaterial(scene, vec3(0.7f));
-    const int red = test::addMaterial(scene, vec3(0.8f, 0.2f, 0.1f));
-    test::addMesh(scene, test::roomMesh(vec3(4.0f, 3.0f, 4.0f), white));
-    box = test::addMesh(scene, test::boxMesh(vec3(0.8f), red), vec3(0.0f, -1.1f, 0.0f));
-    lamp = test::addRectangleLight(scene, vec3(-0.6f, 1.3f, 0.0f), vec2(0.8f), vec3(5.0f));
-    settings.set("bounces", 2);
+struct BouncedRoom : test::MethodRoom {
+  BouncedRoom() : MethodRoom("surface_shadow_maps", "texel_rays") {
     settings.set("texel", 0.4f);
     settings.set("depth_map", std::string("cube"));
     settings.set("depth_resolution", 16);
-  }
-
-  Image settledBy(FrameRenderer& by, SceneChanges changes, const std::string& method) {
-    GiOutput out;
-    rays = 0;
-    for (int frame = 0; frame < 3000 && !out.settled; ++frame) {
-      out = by.render({scene, changes, view, method, settings});
-      changes = {};
-      rays += out.stats.of("texel_rays");
-    }
-    EXPECT_TRUE(out.settled);
-    return out.radiance->pixels();
-  }
-  Image picture(const SceneChanges& changes = {}) {
-    return settledBy(renderer, changes, "surface_shadow_maps");
-  }
-  Image fresh(const std::string& method = "surface_shadow_maps") {
-    FrameRenderer own(makeCpuBackend());
-    return settledBy(own, SceneChanges::all(), method);
-  }
-  Image edited(const std::function<void(Scene&)>& edit) {
-    const Scene old = scene;
-    edit(scene);
-    return picture(compare(old, scene));
   }
 };
 
@@ -134,7 +94,7 @@ TEST(SurfaceShadowMaps, EditsOfMaterialsLeaveTheBitsOfAFreshStart) {
   BouncedRoom room;
   room.picture(SceneChanges::all());
   const Image coloured = room.edited([](Scene& s) { s.materials[1].baseColor.g = 0.7f; });
-  EXPECT_EQ(room.rays, 0.0);
+  EXPECT_EQ(room.count, 0.0);
   EXPECT_TRUE(test::sameBits(coloured, room.fresh()));
   const Image sided = room.edited([](Scene& s) { s.materials[1].doubleSided = true; });
   EXPECT_TRUE(test::sameBits(sided, room.fresh()));
@@ -218,12 +178,12 @@ TEST(SurfaceShadowMaps, ThePictureDoesNotDependOnThreads) {
 TEST(SurfaceShadowMaps, ALampThatMovesFindsNoLinksAnew) {
   BouncedRoom room;
   room.picture(SceneChanges::all());
-  const double first = room.rays;
+  const double first = room.count;
   room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.2f; });
-  EXPECT_GT(room.rays, 0.0);
-  EXPECT_LT(room.rays, first / 10.0);
+  EXPECT_GT(room.count, 0.0);
+  EXPECT_LT(room.count, first / 10.0);
   room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= 2.0f; });
-  EXPECT_EQ(room.rays, 0.0);
+  EXPECT_EQ(room.count, 0.0);
 }
 
 TEST(SurfaceShadowMaps, DepthsAreKeptOnDisk) {
@@ -236,14 +196,14 @@ TEST(SurfaceShadowMaps, DepthsAreKeptOnDisk) {
     return room.settledBy(own, SceneChanges::all(), "surface_shadow_maps");
   };
   const Image first = pictureWithCache();
-  const double traced = room.rays;
+  const double traced = room.count;
   EXPECT_TRUE(test::sameBits(pictureWithCache(), first));
-  EXPECT_LT(room.rays, 0.2 * traced);
+  EXPECT_LT(room.count, 0.2 * traced);
   // A damaged file is no file.
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".depths") std::filesystem::resize_file(entry.path(), 1000);
   EXPECT_TRUE(test::sameBits(pictureWithCache(), first));
-  EXPECT_EQ(room.rays, traced);
+  EXPECT_EQ(room.count, traced);
   std::filesystem::remove_all(folder);
 }
 

@@ -137,16 +137,6 @@ std::vector<shared::Vpl> lightsOf(const Level& level, const View& view) {
   return out;
 }
 
-bool isShadowed(const shared::Vpl& vpl, const SeenPoint& p, std::span<const float> map, int side) {
-  const vec3 q = shared::vplToLight(vpl, p.position - vec3(vpl.position));
-  const vec3 n = shared::vplToLight(vpl, p.normal);
-  const auto resolution = static_cast<float>(side);
-  const vec2 texel = shared::shadowTexel(shared::octahedralEncode(q), resolution);
-  const float stored = map[static_cast<size_t>(texel.y * resolution + texel.x)];
-  return shared::hemisphereOccluded(stored, q, n, shared::shadowTexelCentre(texel, resolution),
-                                    kBias, resolution);
-}
-
 struct Wrong {
   double pairs = 0.0, lit = 0.0, dark = 0.0;  // wrongly lit; wrongly dark
   double percent() const { return pairs > 0.0 ? 100.0 * (lit + dark) / pairs : 0.0; }
@@ -155,7 +145,7 @@ struct Wrong {
 using MapOf = std::function<std::span<const float>(const shared::Vpl&, size_t)>;
 
 Wrong wrongPairs(const Level& level, std::span<const shared::Vpl> lights,
-                 std::span<const SeenPoint> points, int side, const MapOf& mapOf) {
+                 std::span<const SeenPoint> points, const MapOf& mapOf) {
   Wrong out;
   for (size_t i = 0; i < lights.size(); ++i) {
     const std::span<const float> map = mapOf(lights[i], i);
@@ -165,20 +155,13 @@ Wrong wrongPairs(const Level& level, std::span<const shared::Vpl> lights,
       const vec3 way = vec3(lights[i].position) - p.position;
       const float d = glm::length(way);
       const bool isDark = level.rays->occluded({p.position, 0.0f, way / d, d});
-      const bool isStored = isShadowed(lights[i], p, map, side);
+      const bool isStored = isInShadow(lights[i], map, p.position, p.normal, kBias);
       out.pairs += 1.0;
       out.lit += isDark && !isStored;
       out.dark += !isDark && isStored;
     }
   }
   return out;
-}
-
-OccluderPool poolOf(const OccluderPoints& points) {
-  const OccluderPointArrays& a = points.arrays();
-  return {{a.px.data(), a.py.data(), a.pz.data(), a.nx.data(), a.ny.data(), a.nz.data(),
-           a.area.data(), a.px.size()},
-          points.options().pointsPerMap};
 }
 
 struct Variant {
@@ -228,16 +211,16 @@ void printWrongPairs(const Level& level) {
                   });
         maps += static_cast<double>(lights.size());
       }
-      const Wrong wrong =
-          wrongPairs(level, lights, seen, v.map.resolution,
-                     [&](const shared::Vpl& l, size_t i) { return map.render(l, pool.of(i)); });
+      const Wrong wrong = wrongPairs(level, lights, seen, [&](const shared::Vpl& l, size_t i) {
+        return map.render(l, pool.of(i));
+      });
       rows[k] += fmt::format(" {:.1f} ({:.1f}+{:.1f}) |", wrong.percent(),
                              100.0 * wrong.lit / std::max(wrong.pairs, 1.0),
                              100.0 * wrong.dark / std::max(wrong.pairs, 1.0));
       mean[k] += wrong.percent();
     }
     std::vector<float> traced(64 * 64);
-    const Wrong wrong = wrongPairs(level, lights, seen, 64, [&](const shared::Vpl& l, size_t) {
+    const Wrong wrong = wrongPairs(level, lights, seen, [&](const shared::Vpl& l, size_t) {
       cpu::traceShadowMap(*level.rays, l, 64, 0, 64, traced);
       return std::span<const float>(traced);
     });
