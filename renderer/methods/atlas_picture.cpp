@@ -11,7 +11,7 @@
 
 namespace lamplighter {
 
-AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelRadiosity& light,
+AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelIrradiance& light,
                                             const SurfacePictureOptions& options,
                                             const Sample& before,
                                             std::span<const uint32_t> movedObjects) const {
@@ -66,7 +66,7 @@ std::vector<uint32_t> AtlasPicture::texels() const {
 
 std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
                                                    const std::shared_ptr<RadianceImage>& picture,
-                                                   const TexelRadiosity& light, int antialias,
+                                                   const TexelIrradiance& light, int antialias,
                                                    const SurfacePictureOptions& options,
                                                    bool& gbufferIsCurrent) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "renderer/methods/gi_method.h"
-#include "renderer/surface_depths/texel_radiosity.h"
 #include "renderer/surface_light/pixels/pixel_reflectance.h"
+#include "renderer/texels/texel_irradiance.h"
 
 namespace lamplighter {
 
@@ -19,7 +19,7 @@ class AtlasPicture {
   // without a shift.
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture,
-                                       const TexelRadiosity& light, int antialias,
+                                       const TexelIrradiance& light, int antialias,
                                        const SurfacePictureOptions& options,
                                        bool& gbufferIsCurrent);
   // Whether the last picture has all shifted ones.
@@ -45,7 +45,7 @@ class AtlasPicture {
   using Sample = std::vector<Pixel>;
   // `before`: a sample of which pixels that show the same place of an object that did not move
   // stay; or empty.
-  Sample sampleOf(const FrameInputs& in, const TexelRadiosity& light,
+  Sample sampleOf(const FrameInputs& in, const TexelIrradiance& light,
                   const SurfacePictureOptions& options, const Sample& before,
                   std::span<const uint32_t> movedObjects) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/methods/atlas_picture.h"
+#include "renderer/surface_depths/texel_radiosity.h"
 
 namespace lamplighter {
 

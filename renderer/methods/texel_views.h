@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "renderer/methods/atlas_picture.h"
+#include "renderer/surface_depths/texel_radiosity.h"
 
 namespace lamplighter {
 

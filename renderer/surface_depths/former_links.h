@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/surface_depths/texel_moves.h"
 #include "renderer/surface_depths/texel_tree.h"
+#include "renderer/texels/texel_moves.h"
 
 namespace lamplighter {
 

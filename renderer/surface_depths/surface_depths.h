@@ -13,8 +13,8 @@
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/surface_depths/depth_intervals.h"
-#include "renderer/surface_depths/depth_map_layout.h"
-#include "renderer/surface_depths/texel_set.h"
+#include "renderer/texels/depth_map_layout.h"
+#include "renderer/texels/texel_set.h"
 
 namespace lamplighter {
 

@@ -11,10 +11,11 @@
 
 #include "renderer/services/services.h"
 #include "renderer/surface_depths/depth_cache.h"
-#include "renderer/surface_depths/texel_light.h"
 #include "renderer/surface_depths/texel_links.h"
-#include "renderer/surface_depths/texel_neighbours.h"
 #include "renderer/surface_depths/texel_senders.h"
+#include "renderer/texels/scene_texels.h"
+#include "renderer/texels/texel_irradiance.h"
+#include "renderer/texels/texel_light.h"
 
 namespace lamplighter {
 
@@ -35,34 +36,32 @@ struct TexelRadiosityOptions {
 // The side of texels that memory allows [m].
 float texelSideOf(const RenderScene& scene, const TexelRadiosityOptions& options);
 
-class TexelRadiosity {
+class TexelRadiosity final : public TexelIrradiance {
  public:
   // Takes the changes of each frame, also of those without update().
   void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
   // Goes on by about `mostRays`.
   void update(const RenderScene& scene, Services& services, const TexelRadiosityOptions& options,
               uint64_t mostRays);
-  // Whether the light is that of a fresh start.
-  bool isDone() const;
+  bool isDone() const override;
   // Share of what is needed of depths and links that is found.
   float progress() const;
-  // Differs if irradiance() differs.
-  uint32_t version() const { return version_; }
-  // Differs if texels() are other ones, or others of them are buried.
-  uint32_t texelVersion() const { return texelVersion_; }
+  uint32_t version() const override { return version_; }
+  uint32_t texelVersion() const override { return ground_.version(); }
 
-  // Of bounced light, by texel [W/m²]; empty before it is found for the first time.
-  const std::vector<vec3>& irradiance() const { return irradiance_; }
-  const TexelSet& texels() const { return texels_; }
+  // Of bounced light.
+  const std::vector<vec3>& irradiance() const override { return irradiance_; }
+  const TexelSet& texels() const { return ground_.set(); }
   // By object.
-  const std::vector<ObjectAtlas>& atlases() const { return atlases_; }
+  const std::vector<ObjectAtlas>& atlases() const { return ground_.atlases(); }
   const SurfaceDepths& depths() const { return depths_; }
   const TexelLinks& links() const { return links_; }
   const TexelTree& tree() const { return tree_; }
   const TexelRadiosityOptions& options() const { return options_; }
-  // The texels around a point of a triangle (world space) that it sees. No weights: it has none.
   TexelBlend blendAt(const RenderScene& scene, const RayCaster& rays, uint32_t object,
-                     uint32_t triangle, bool isBack, const vec3& position) const;
+                     uint32_t triangle, bool isBack, const vec3& position) const override {
+    return ground_.blendAt(scene, rays, object, triangle, isBack, position);
+  }
   // By sender, what the light of such a point is the sum of. None while links are found, and until
   // all changes are taken.
   std::optional<std::vector<TexelSender>> sendersTo(const RenderScene& scene, const RayCaster& rays,
@@ -79,48 +78,33 @@ class TexelRadiosity {
   const Counts& counts() const { return counts_; }
   void forget() { *this = TexelRadiosity(); }
 
-  // What texels and rays depend on, of the material of an object.
-  struct Sides {
-    bool isClear = false, isDoubleSided = false, isMasked = false;
-    float cutoff = 0.0f, opacity = 1.0f;  // of a mask
-    TextureRef texture;
-    bool operator==(const Sides&) const = default;
-  };
-
  private:
-  bool takeGeometry(const RenderScene& scene, Services& services,
+  void takeGeometry(const RenderScene& scene, Services& services,
                     const RenderSceneChanges& changes);
-  bool takeSides(const RenderScene& scene);
-  void takeAtlases(Services& services);
   bool usesDepths() const { return options_.visibility == TexelVisibility::stored; }
   void findDepths(const RenderScene& scene, Services& services, uint64_t mostRays);
   void findSky(const RenderScene& scene, const RayCaster& rays, uint64_t most);
   void findLinks(const RenderScene& scene, const RayCaster& rays, uint64_t most);
-  void findAlbedo(const RenderScene& scene);
   void bounce();
 
   TexelRadiosityOptions options_;
   RenderSceneChanges unseen_;
   LightSet lights_;
-  std::vector<ObjectAtlas> atlases_;
-  TexelSet texels_;
-  TexelNeighbours neighbours_;
+  SceneTexels ground_;
   TexelTree tree_;
   SurfaceDepths depths_;
   bool hasLookedOnDisk_ = false;        // for these depths
   std::optional<ContentKey> depthKey_;  // of depths that are to be saved
   TexelLinks links_;
   TexelLight light_;
-  // When links were complete, and when texels were found last; and what moved since then.
-  PlacedTexels placesOfLinks_, places_;
-  std::set<uint32_t> movedSinceLinks_, moved_;
-  std::vector<Sides> sides_;      // by object
+  // When links were complete, and what moved since then.
+  PlacedTexels placesOfLinks_;
+  std::set<uint32_t> movedSinceLinks_;
   std::vector<vec3> albedo_;      // by texel
   std::vector<vec3> irradiance_;  // by texel
   std::vector<vec3> radiosity_;   // by texel, of the last bounce: the links turn it to irradiance_
-  bool isStale_ = false;          // surfaces moved since texels were found
-  bool isStarted_ = false, isLit_ = false;  // isLit_: irradiance_ is that of now
-  uint32_t version_ = 0, texelVersion_ = 0;
+  bool isLit_ = false;            // irradiance_ is that of now
+  uint32_t version_ = 0;
   Counts counts_;
 };
 

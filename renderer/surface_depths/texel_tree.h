@@ -10,7 +10,7 @@
 #include <compare>
 #include <vector>
 
-#include "renderer/surface_depths/texel_set.h"
+#include "renderer/texels/texel_set.h"
 
 namespace lamplighter {
 

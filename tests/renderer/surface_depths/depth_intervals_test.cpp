@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/random.h"
-#include "renderer/surface_depths/depth_map_layout.h"
+#include "renderer/texels/depth_map_layout.h"
 
 namespace lamplighter {
 namespace {

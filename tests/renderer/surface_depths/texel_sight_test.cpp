@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/texels/texel_rays.h"
 #include "tests/renderer/surface_depths/lit_texels.h"
 
 namespace lamplighter {

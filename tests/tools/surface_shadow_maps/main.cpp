@@ -14,6 +14,7 @@
 #include "renderer/surface_depths/surface_depths.h"
 #include "renderer/surface_depths/texel_links.h"
 #include "renderer/surface_depths/texel_sight.h"
+#include "renderer/texels/texel_rays.h"
 #include "tests/support/folders.h"
 #include "tests/support/shared_files.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/depth_map_layout.h"
+#include "renderer/texels/depth_map_layout.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "renderer/sampling/vpl_set.h"
-#include "renderer/surface_depths/texel_moves.h"
+#include "renderer/texels/texel_moves.h"
 
 namespace lamplighter {
 

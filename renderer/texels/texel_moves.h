@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/surface_depths/texel_set.h"
+#include "renderer/texels/texel_set.h"
 
 namespace lamplighter {
 

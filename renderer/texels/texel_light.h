@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/sampling/vpl_set.h"
-#include "renderer/surface_depths/texel_sky.h"
+#include "renderer/texels/texel_sky.h"
 
 namespace lamplighter {
 

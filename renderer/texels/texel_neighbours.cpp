@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_neighbours.h"
+#include "renderer/texels/texel_neighbours.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/surface_depths/texel_sight.h"
+#include "renderer/texels/texel_rays.h"
 
 namespace lamplighter {
 namespace {

@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_sky.h"
+#include "renderer/texels/texel_sky.h"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 
 #include "renderer/base/random.h"
 #include "renderer/scene/light_linking.h"
-#include "renderer/surface_depths/depth_map_layout.h"
+#include "renderer/texels/depth_map_layout.h"
 
 namespace lamplighter {
 namespace {

@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_order.h"
+#include "renderer/texels/texel_order.h"
 
 #include <algorithm>
 #include <array>

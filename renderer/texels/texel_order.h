@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/surface_depths/texel_set.h"
+#include "renderer/texels/texel_set.h"
 
 namespace lamplighter {
 

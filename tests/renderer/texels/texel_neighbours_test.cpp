@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_neighbours.h"
+#include "renderer/texels/texel_neighbours.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "renderer/surface_depths/texel_set.h"
+#include "renderer/texels/texel_set.h"
 
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "renderer/surface_depths/texel_order.h"
+#include "renderer/texels/texel_order.h"
 #include "tests/renderer/surface_depths/lit_texels.h"
 
 namespace lamplighter {

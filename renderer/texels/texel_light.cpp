@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_light.h"
+#include "renderer/texels/texel_light.h"
 
 #include <algorithm>
 #include <atomic>

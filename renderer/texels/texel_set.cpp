@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_set.h"
+#include "renderer/texels/texel_set.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,8 +8,8 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
-#include "renderer/surface_depths/texel_order.h"
 #include "renderer/surface_light/gather_links.h"
+#include "renderer/texels/texel_order.h"
 
 namespace lamplighter {
 namespace {

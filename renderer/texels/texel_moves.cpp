@@ -1,4 +1,4 @@
-#include "renderer/surface_depths/texel_moves.h"
+#include "renderer/texels/texel_moves.h"
 
 namespace lamplighter {
 namespace {

@@ -1,0 +1,15 @@
+// What texels see, by rays. Area lights block no bounced light, so that they can move freely.
+#pragma once
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/texels/texel_set.h"
+
+namespace lamplighter {
+
+// Whether anything but area lights is in the way of a ray.
+bool blocksBouncedLight(const RenderScene& scene, const RayCaster& rays, Ray ray);
+// Whether nothing is between the texel and a point of a surface. False below the texel.
+bool seesByRay(const RenderScene& scene, const RayCaster& rays, const SurfaceTexel& texel,
+               const vec3& point);
+
+}  // namespace lamplighter
