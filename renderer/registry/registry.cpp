@@ -6,6 +6,7 @@
 #include "renderer/base/error.h"
 #include "renderer/methods/ambient_occlusion/ambient_occlusion.h"
 #include "renderer/methods/imperfect_shadow_maps/imperfect_shadow_maps.h"
+#include "renderer/methods/light_field/light_field_method.h"
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/methods/multi_mesh/multi_mesh.h"
 #include "renderer/methods/path_tracer/reference_method.h"
@@ -17,7 +18,8 @@ namespace {
 std::deque<MethodInfo>& list() {
   static std::deque<MethodInfo> all{manyLightsInfo(),        multiMeshInfo(),
                                     surfaceShadowMapsInfo(), imperfectShadowMapsInfo(),
-                                    ambientOcclusionInfo(),  referenceInfo()};
+                                    lightFieldInfo(),        ambientOcclusionInfo(),
+                                    referenceInfo()};
   return all;
 }
 

@@ -60,6 +60,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out = renderSamples(in, options, stages, stats);
   addMeshes(in, options, stages, out, stats);
   addLinks(in, options, stages, out, stats);
+  addField(in, options, stages, out, stats);
   addImperfect(in, options, stages, out, stats);
   if (!options.carrierReason.empty()) stats.chosen["indirect"] = options.carrierReason;
   out.stats = published(stats, manyLightsStatistics());

@@ -9,6 +9,7 @@
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/bounced_picture.h"
+#include "renderer/methods/field_light/field_picture.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/imperfect_light/imperfect_picture.h"
 #include "renderer/methods/linked_picture.h"
@@ -45,6 +46,7 @@ class ManyLights final : public GiMethod {
   // another one between frames.
   bool& gbufferIsCurrent() { return gbufferIsCurrent_; }
   const LinkedPicture& linked() const { return linked_; }
+  const FieldPicture& field() const { return field_; }
   // Of light on surfaces, in the last frame.
   const SurfaceLight::Counts& surfaceCounts() const { return meshes_.counts(); }
 
@@ -54,6 +56,8 @@ class ManyLights final : public GiMethod {
   GiOutput renderSamples(const FrameInputs& in, Options& options, StageTimer& stages,
                          ManyLightsStats& stats);
   void addLinks(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
+                ManyLightsStats& stats);
+  void addField(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
                 ManyLightsStats& stats);
   void addImperfect(const FrameInputs& in, const Options& options, StageTimer& stages,
                     GiOutput& out, ManyLightsStats& stats);
@@ -145,6 +149,7 @@ class ManyLights final : public GiMethod {
   Refinement refinement_;
   BouncedPicture meshes_;       // with indirect = meshes
   LinkedPicture linked_;        // with indirect = links
+  FieldPicture field_;          // with indirect = field
   ImperfectPicture imperfect_;  // with indirect = imperfect
 };
 

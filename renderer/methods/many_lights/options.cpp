@@ -39,6 +39,10 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, boo
     linkBounces = std::exchange(bounces, 0);
     directShare = 1.0f;
   }
+  if (indirect == ManyLightsIndirect::field) {
+    fieldBounces = std::exchange(bounces, 0);
+    directShare = 1.0f;
+  }
   if (indirect == ManyLightsIndirect::imperfect) {
     imperfectBounces = std::exchange(bounces, 0);
     directShare = 1.0f;
@@ -98,7 +102,7 @@ VplCounts ManyLightsOptions::counts() const {
   counts.bounces = bounces;
   counts.seed = static_cast<uint32_t>(seed);
   counts.candidates = std::min(importance, std::max(kMostCandidates / vpls, kCheapCandidates));
-  counts.withoutSky = useMeshes();
+  counts.withoutSky = useMeshes() || useField();
   counts.withoutSurfaces = withoutSurfaces;
   counts.sunMaps = sunMaps;
   return counts;

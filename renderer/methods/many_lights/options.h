@@ -26,6 +26,10 @@ struct ManyLightsOptions : ManyLightsParameters {
   // Likewise of light along links of texels.
   int linkBounces = 0;
   bool useLinks() const { return linkBounces > 0; }
+  // Likewise of light in a field.
+  int fieldBounces = 0;
+  // It shows the sky, too, without its suns.
+  bool useField() const { return indirect == ManyLightsIndirect::field; }
   // Likewise of light by samples with imperfect shadow maps.
   int imperfectBounces = 0;
   bool useImperfect() const { return imperfectBounces > 0; }

@@ -51,17 +51,21 @@ const ParameterTable<P>& manyLightsParameters() {
        "trace no rays for it. imperfect: 1,024 samples of it are chosen for each view, with shadow "
        "maps of points (method imperfect_shadow_maps); nothing is prepared, however large the "
        "level "
-       "is. automatic: on the cpu backend links in rooms without sky and gloss whose surfaces are "
+       "is. field: texels exchange light with all that they see in 513 directions (method "
+       "light_field), with the sky as well. automatic: on the cpu backend links in rooms without "
+       "sky and gloss whose surfaces are "
        "larger than texels, imperfect in levels of very many triangles without a sky, otherwise "
        "meshes; samples on gl and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
         {"meshes", ManyLightsIndirect::meshes},
         {"links", ManyLightsIndirect::links},
-        {"imperfect", ManyLightsIndirect::imperfect}},
+        {"imperfect", ManyLightsIndirect::imperfect},
+        {"field", ManyLightsIndirect::field}},
        lightSamples},
       surfaceLightParameters(),
       storedDepthParameters(),
+      lightFieldParameters(),
       {&P::importance,
        "importance",
        "Candidates",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/field_light/parameters.h"
 #include "renderer/methods/stored_depth_parameters.h"
 #include "renderer/methods/surface_light_parameters.h"
 
@@ -13,7 +14,7 @@ enum class ManyLightsTechnique { naive, visibility, lightMaps };
 // What carries bounced light: light samples, or light that is kept on surfaces. automatic: by a
 // rule on the scene (carrier_rule.h) where the backend renders on the processor, samples where
 // showing them reads the picture back.
-enum class ManyLightsIndirect { automatic, samples, meshes, links, imperfect };
+enum class ManyLightsIndirect { automatic, samples, meshes, links, imperfect, field };
 
 // Those that change how the light of the same light samples is summed. Memory is in MiB.
 struct LightSumParameters : SurfaceParameters {
@@ -36,7 +37,8 @@ struct ManyLightsParameters : LightSumParameters,
                               PathParameters,
                               FrameBudgetParameters,
                               SurfaceLightParameters,
-                              StoredDepthParameters {
+                              StoredDepthParameters,
+                              LightFieldParameters {
   ManyLightsIndirect indirect = ManyLightsIndirect::automatic;
   int vpls = 300;  // direct and indirect ones
   float directShare = 0.5f;

@@ -25,6 +25,11 @@ BiasCompensation::Options cornerOptions(const FrameInputs& in, const ManyLightsO
           options.leastRoughness};
 }
 
+// Share of the usual work of a frame.
+float paceOf(const ManyLightsOptions& options) {
+  return static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates);
+}
+
 }  // namespace
 
 // A picture of a part of the light, or with transfer, is not divided into shares.
@@ -114,6 +119,7 @@ void ManyLights::refineSettled(const FrameInputs& in, const Options& options, bo
   const bool waits =
       (options.useMeshes() && (!meshes_.isDone(options.antialias) || !in.changes.none())) ||
       (options.useLinks() && (!linked_.isDone(options.antialias) || !in.changes.none())) ||
+      (options.useField() && (!field_.isDone(options.antialias) || !in.changes.none())) ||
       (options.useImperfect() && (!imperfect_.isDone() || !in.changes.none()));
   if (out.settled && !shadedNow && mayRefine && !waits) refine(in, options, stages, out, stats);
   out.refined = out.settled && (options.refine == 0 || refinement_.done() || !mayRefine);
@@ -177,9 +183,8 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
   light.part = showsSky && showsBounces ? SurfaceLightPart::both
                : showsSky               ? SurfaceLightPart::sky
                                         : SurfaceLightPart::bounced;
-  meshes_.update(
-      in, light, {in.lightOnly, options.speculars, options.leastRoughness},
-      static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates));
+  meshes_.update(in, light, {in.lightOnly, options.speculars, options.leastRoughness},
+                 paceOf(options));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
   if (!meshes_.isDone(options.antialias)) refinement_.restart();
@@ -199,9 +204,7 @@ void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTi
   if (!options.useLinks()) linked_.forget();
   linked_.outdate(in);
   if (!options.useLinks() || in.part == LightPart::direct) return;
-  linked_.update(
-      in, options.radiosity(options.linkBounces, options.seed),
-      static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates));
+  linked_.update(in, options.radiosity(options.linkBounces, options.seed), paceOf(options));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
   out.radiance =
       linked_.addTo(in, out.radiance, samples,
@@ -215,6 +218,32 @@ void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTi
         std::max({1, stats.framesUntilSettled, linked_.framesLeft(options.antialias)});
   stats.take(linked_.light());
   stats.raysTraced += linked_.light().counts().rays;
+  stages.end(kMeshesStage);
+}
+
+// Adds bounced light and the light of the sky from a light field.
+void ManyLights::addField(const FrameInputs& in, const Options& options, StageTimer& stages,
+                          GiOutput& out, ManyLightsStats& stats) {
+  if (!options.useField()) field_.forget();
+  field_.outdate(in);
+  if (!options.useField()) return;
+  LightFieldOptions light = options.field(options.fieldBounces, options.seed);
+  light.showsSky = in.part != LightPart::indirect;
+  light.showsBounces = light.showsBounces && in.part != LightPart::direct;
+  field_.update(in, light, paceOf(options));
+  const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
+  out.radiance =
+      field_.addTo(in, out.radiance, samples,
+                   {in.lightOnly, options.speculars, options.leastRoughness}, gbufferIsCurrent_);
+  const bool isDone = field_.isDone(options.antialias);
+  if (!isDone) refinement_.restart();
+  out.settled = out.settled && isDone;
+  out.refined = out.refined && out.settled;
+  if (!out.settled)
+    stats.framesUntilSettled =
+        std::max({1, stats.framesUntilSettled, field_.framesLeft(options.antialias)});
+  stats.take(field_.light());
+  stats.raysTraced += stats.fieldRays;
   stages.end(kMeshesStage);
 }
 

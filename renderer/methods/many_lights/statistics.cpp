@@ -299,6 +299,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .kind = pending}},
       surfaceLightStatistics(),
       storedDepthStatistics(),
+      lightFieldStatistics(),
       commonStatistics()};
   return table;
 }

@@ -2,13 +2,15 @@
 #pragma once
 
 #include "renderer/methods/common_statistics.h"
+#include "renderer/methods/field_light/parameters.h"
 #include "renderer/methods/stored_depth_parameters.h"
 #include "renderer/methods/surface_light_parameters.h"
 
 namespace lamplighter {
 
 // Numbers of VPLs, unless stated otherwise. Refreshed and pending ones are `updates` and `pending`.
-struct ManyLightsStats : SurfaceLightStats, StoredDepthStats {
+struct ManyLightsStats : SurfaceLightStats, StoredDepthStats, LightFieldStats {
+  using LightFieldStats::take;
   using StoredDepthStats::take;
   using SurfaceLightStats::take;
 
