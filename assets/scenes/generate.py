@@ -2,7 +2,7 @@
 """Writes the scenes of this folder as glTF with embedded buffers. Run it only to change them: the
 results are committed, and nothing needs Python to build or run. Standard library only.
 
-Metres, Y up; Lambertian materials; lights are EXT_lights_area (radiance in intensity x color)."""
+Metres, Y up; materials are Lambertian unless they have a roughness; lights are EXT_lights_area (radiance in intensity x color)."""
 import base64, json, math, os, struct
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -40,9 +40,9 @@ class Scene:
         self.accessors.append(a)
         return len(self.accessors) - 1
 
-    def material(self, name, rgb):
+    def material(self, name, rgb, metallic=0.0, roughness=1.0):
         self.materials.append({"name": name, "pbrMetallicRoughness": {
-            "baseColorFactor": [*rgb, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}})
+            "baseColorFactor": [*rgb, 1.0], "metallicFactor": metallic, "roughnessFactor": roughness}})
         return len(self.materials) - 1
 
     def mesh(self, name, positions, normals, indices, material):
@@ -259,6 +259,20 @@ def cornell_style():
     s.box("short", (0.55, 0.55, 0.55), white, translation=[0.4, 0.275, 0.3], rotation=turned((0, 1, 0), -17))
     s.camera("camera", (0, 1.0, 3.4), (0, 0.95, 0), 0.7)
     s.write("cornell_style")
+
+
+def cornell_specular():
+    """Figure 8 of the paper on the virtual light field: a Cornell box with a tall metal box, which throws caustics on
+    the floor and on the ceiling."""
+    s = Scene()
+    white = s.material("white", (0.72, 0.72, 0.72))
+    s.room((2, 2, 2), white, white, s.material("red", (0.6, 0.08, 0.06)), s.material("green", (0.12, 0.45, 0.1)), white, None)
+    s.light("lamp", (0.6, 0.6), (11.0, 9.6, 7.0), [0.1, 1.98, 0], DOWN)
+    s.box("tall", (0.55, 1.15, 0.55), s.material("metal", (0.93, 0.91, 0.88), 1.0, 0.1), translation=[-0.35, 0.575, -0.3],
+          rotation=turned((0, 1, 0), 40))
+    s.box("short", (0.5, 0.5, 0.5), white, translation=[0.5, 0.25, 0.35], rotation=turned((0, 1, 0), -17))
+    s.camera("camera", (0, 1.0, 3.4), (0, 0.95, 0), 0.7)
+    s.write("cornell_specular")
 
 
 def default():
@@ -493,6 +507,6 @@ def corridor_statue():
 
 
 if __name__ == "__main__":
-    for make in (area_light_room, table_room, pillar_room, cornell_style, default, narrow_gap, close_light, corridor,
-                 door_ajar, u_corridor, corridor_statue):
+    for make in (area_light_room, table_room, pillar_room, cornell_style, cornell_specular, default, narrow_gap,
+                 close_light, corridor, door_ajar, u_corridor, corridor_statue):
         make()
