@@ -43,6 +43,7 @@ uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobO
     add(static_cast<uint64_t>(o.light.paths.bounces));
     add(o.light.paths.seed);
     add(static_cast<uint64_t>(o.light.samples));
+    if (o.light.paths.glossyBounces) add(std::bit_cast<uint32_t>(o.light.paths.leastRoughness));
   } else {
     add(static_cast<uint64_t>(o.light.counts.total));
     add(std::bit_cast<uint32_t>(o.light.counts.directShare));

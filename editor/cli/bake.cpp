@@ -66,6 +66,8 @@ BakeLightOptions lightOf(const std::string& method, Settings settings) {
     light.method = BakeMethod::reference;
     light.paths.bounces = parameters.bounces;
     light.paths.seed = static_cast<uint32_t>(parameters.seed);
+    light.paths.glossyBounces = parameters.glossyBounces;
+    light.paths.leastRoughness = parameters.leastRoughness;
     light.samples = parameters.samplesPerPixel;
     return light;
   }

@@ -18,14 +18,14 @@ struct Surface {
 // u, v: barycentric weights of the triangle's second and third vertex, as Embree gives them.
 Surface surfaceAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 
-// Properties for specular reflection towards the eye, besides the albedo (shaders/shared/brdf.h).
+// Properties for specular reflection, besides the albedo (shaders/shared/brdf.h).
 struct Gloss {
   float metallic = 0.0f, roughness = 1.0f;
 };
 // Whether any point of the material may have a specular lobe.
 bool mayBeGlossy(const Material& material);
-// Values at the point, including the texture. Only for directly visible surfaces: reflected
-// indirect light is Lambertian.
+// Values at the point, including the texture. Only for directly visible surfaces, because bounced
+// light is reflected diffusely, except for glossy_bounces of the reference.
 Gloss glossAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 
 // Of all triangles [m²].

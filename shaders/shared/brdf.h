@@ -1,6 +1,6 @@
 // The BRDF of surfaces seen by the eye: metallic-roughness of glTF 2.0, appendix B (GGX,
 // height-correlated Smith masking, Schlick's Fresnel), for light from one direction. Only the last
-// surface before the eye uses it; bounced light uses a Lambertian BRDF with the base colour.
+// surface before the eye uses it, or all of a path with glossy_bounces; others are Lambertian.
 //   f = ρ/π · diffuseShare + D·V·F
 // Two differences from appendix B:
 //   - The diffuse part is reduced by the directional albedo of the lobe for the eye's direction

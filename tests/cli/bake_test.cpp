@@ -1,5 +1,7 @@
 // The command `lamplighter bake`.
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +48,23 @@ TEST_F(BakeCommand, BakesFromLightOnSurfaces) {
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_EQ(r.err.find("warning"), std::string::npos) << r.err;
   EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
+}
+
+// The second bake into the folder takes nothing from the first.
+TEST_F(BakeCommand, GlossyBouncesOfTheReferenceChangeTheLight) {
+  const auto page = [&](const char* value) {
+    const std::string scene =
+        (test::sourceFolder() / "assets/scenes/cornell_specular.gltf").string();
+    const ProcessResult r =
+        runLamplighter({"bake", scene, "-o", folder_.string(), "--method", "reference", "--density",
+                        "2", "--page", "256", "--set", "samples_per_pixel=2", "--set", value});
+    EXPECT_EQ(r.code, 0) << r.err;
+    std::ifstream in(folder_ / "cornell_specular-light-0.exr", std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string matt = page("glossy_bounces=false"), glossy = page("glossy_bounces=true");
+  EXPECT_FALSE(matt.empty());
+  EXPECT_NE(matt, glossy);
 }
 
 TEST_F(BakeCommand, GathersLightFromTexelsAndWritesVisibility) {

@@ -8,18 +8,25 @@
 namespace lamplighter {
 namespace {
 
-// The density of directions from sampleVisibleNormal() per solid angle: D·G1 / (4 n·v).
-float visibleNormalPdf(float nv, float nh2, float alpha) {
-  const float a2 = alpha * alpha, d = nh2 * (a2 - 1.0f) + 1.0f;
+// The density of directions from sampleVisibleNormal() per solid angle: D·G1 / (4 n·v), with
+// D = α² / (π d²).
+float visibleNormalPdf(float nv, float d, float a2) {
   const float distribution = a2 / (kPi * d * d);
   return distribution / (2.0f * (nv + std::sqrt(nv * nv * (1.0f - a2) + a2)));
+}
+
+// d = cos² θ (α² − 1) + 1 = cos² θ α² + sin² θ for the angle θ of the half vector.
+float denominatorFromSine(const vec3& light, const vec3& eye, float a2) {
+  const vec3 sum = light + eye;
+  const float sine2 = (sum.x * sum.x + sum.y * sum.y) / std::max(glm::dot(sum, sum), 4e-6f);
+  return (1.0f - sine2) * a2 + sine2;
 }
 
 }  // namespace
 
 GlossySurface::GlossySurface(const vec3& baseColor, const Gloss& gloss, float leastRoughness,
-                             const vec3& normal, const vec3& toEye)
-    : frame_(normal), eye_(frame_.toLocal(toEye)) {
+                             const vec3& normal, const vec3& toEye, LobeArithmetic arithmetic)
+    : arithmetic_(arithmetic), frame_(normal), eye_(frame_.toLocal(toEye)) {
   const float nv = std::max(eye_.z, shared::kLeastCosine);
   lobe_ = shared::makeLobe(baseColor, gloss.metallic, gloss.roughness, leastRoughness, nv);
   alpha_ = std::sqrt(lobe_.shape.x);
@@ -36,7 +43,21 @@ GlossySurface::GlossySurface(const vec3& baseColor, const Gloss& gloss, float le
 vec3 GlossySurface::brdf(const vec3& w) const {
   const vec3 light = frame_.toLocal(w);
   if (light.z <= 0.0f) return vec3(0.0f);
-  return diffuse_ + shared::lobeTowards(lobe_, light.z, glm::dot(light, eye_), 0.0f);
+  return diffuse_ + lobeTowards(light);
+}
+
+// D·V·F, equal to shared::lobeTowards() but for rounding.
+vec3 GlossySurface::lobeTowards(const vec3& light) const {
+  if (arithmetic_ == LobeArithmetic::fromCosine)
+    return shared::lobeTowards(lobe_, light.z, glm::dot(light, eye_), 0.0f);
+  const float a2 = lobe_.shape.x, nv = lobe_.shape.y, nl = light.z;
+  const float d = denominatorFromSine(light, eye_, a2);
+  const float masking =
+      nl * std::sqrt(nv * nv * (1.0f - a2) + a2) + nv * std::sqrt(nl * nl * (1.0f - a2) + a2);
+  const float away = 1.0f - 0.5f * glm::length(light + eye_), away2 = away * away;
+  const vec3 straight(lobe_.straight);
+  const vec3 fresnel = straight + away2 * away2 * away * (lobe_.straight.w - straight);
+  return a2 / (2.0f * kPi * d * d * masking) * fresnel;
 }
 
 vec3 GlossySurface::sample(float choice, vec2 u) const {
@@ -48,8 +69,11 @@ vec3 GlossySurface::sample(float choice, vec2 u) const {
 float GlossySurface::pdf(const vec3& w) const {
   const vec3 light = frame_.toLocal(w);
   if (light.z <= 0.0f) return 0.0f;
+  const float a2 = alpha_ * alpha_, nv = std::max(eye_.z, 1e-4f);
   const vec3 half = glm::normalize(light + eye_);
-  const float lobe = visibleNormalPdf(std::max(eye_.z, 1e-4f), half.z * half.z, alpha_);
+  const float d = arithmetic_ == LobeArithmetic::fromSine ? denominatorFromSine(light, eye_, a2)
+                                                          : half.z * half.z * (a2 - 1.0f) + 1.0f;
+  const float lobe = visibleNormalPdf(nv, d, a2);
   return lobeProbability_ * lobe + (1.0f - lobeProbability_) * light.z / kPi;
 }
 

@@ -7,8 +7,11 @@
 namespace lamplighter {
 
 struct PathTracerParameters : PathParameters, SampleParameters, SurfaceParameters {
+  bool glossyBounces = false;
+
   PathTracerOptions options(bool lightOnly) const {
-    return {bounces, static_cast<uint32_t>(seed), lightOnly, speculars, leastRoughness};
+    return {bounces,      static_cast<uint32_t>(seed), lightOnly, speculars, leastRoughness,
+            glossyBounces};
   }
 };
 

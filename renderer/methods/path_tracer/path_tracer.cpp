@@ -21,6 +21,11 @@ constexpr int kSureBounces = 8;
 // The balance heuristic (Veach and Guibas 1995) for two strategies of one sample each.
 float misWeight(float pdf, float other) { return pdf / (pdf + other); }
 
+// Whether surface number `depth` of a path, counted from the camera, may have a specular lobe.
+bool mayHaveLobe(int depth, const PathTracerOptions& options) {
+  return depth > 0 ? options.glossyBounces : options.speculars && !options.lightOnly;
+}
+
 // A surface seen from one side: both normals are turned to the viewer. A mapped normal that faces
 // away from the viewer is bent to the geometric one. Lambertian if it has no gloss.
 struct LocalSurface {
@@ -86,10 +91,12 @@ class Tracer {
       if (depth == 0 && options.lightOnly) surface.albedo = vec3(1.0f);
       const RenderObject& object = scene_.objects[hit.object];
       LocalSurface at(surface, -ray.direction, object.leftOutBy);
-      if (depth == 0 && options.speculars && !options.lightOnly) {
+      if (mayHaveLobe(depth, options)) {
         const Gloss gloss = glossAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
         if (shared::isGlossy(gloss.metallic, gloss.roughness))
-          at.gloss.emplace(surface.albedo, gloss, options.leastRoughness, at.ns, -ray.direction);
+          at.gloss.emplace(
+              surface.albedo, gloss, options.leastRoughness, at.ns, -ray.direction,
+              options.glossyBounces ? LobeArithmetic::fromSine : LobeArithmetic::fromCosine);
       }
       if (takesSeen && !isLeftOut(leftOutBy, object.link))
         radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);

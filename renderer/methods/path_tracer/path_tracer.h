@@ -16,9 +16,11 @@ struct PathTracerOptions {
   // surfaces seen by the camera are white; their illumination uses real albedos
   bool lightOnly = false;
   // Surfaces seen by the camera use metallic-roughness (shaders/shared/brdf.h) with at least this
-  // roughness; all other surfaces of a path are Lambertian.
+  // roughness.
   bool speculars = false;
   float leastRoughness = 0.1f;
+  // All other surfaces of a path do so, too. Off: they are Lambertian.
+  bool glossyBounces = false;
   // Both parts use the same random numbers, so they add up to the whole.
   LightPart part = LightPart::all;
 

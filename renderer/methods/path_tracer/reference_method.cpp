@@ -116,8 +116,14 @@ class ReferenceMethod final : public GiMethod {
 }  // namespace
 
 const ParameterTable<PathTracerParameters>& pathTracerParameters() {
-  static const ParameterTable<PathTracerParameters> table{pathParameters(), sampleParameters(),
-                                                          surfaceParameters()};
+  static const ParameterTable<PathTracerParameters> table{
+      pathParameters(),
+      sampleParameters(),
+      surfaceParameters(),
+      {&PathTracerParameters::glossyBounces, "glossy_bounces", "Glossy bounces",
+       "Bounces reflect light by metallic and roughness values, too, so that mirrors show mirrors, "
+       "and metal throws caustics. Off: bounces are diffuse. Needs more paths for the same noise.",
+       ParameterGroup::picture}};
   return table;
 }
 

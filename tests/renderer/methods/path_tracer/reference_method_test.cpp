@@ -15,8 +15,9 @@ namespace {
 Scene litRoom() {
   Scene scene;
   const int grey = test::addMaterial(scene, vec3(0.6f, 0.5f, 0.4f));
+  const int metal = test::addMaterial(scene, vec3(0.8f, 0.7f, 0.6f), 1.0f, 0.3f);
   test::addMesh(scene, test::squareMesh(6.0f, grey));
-  test::addMesh(scene, test::boxMesh(vec3(1.0f), grey), vec3(0.3f, 0.5f, 0.0f));
+  test::addMesh(scene, test::boxMesh(vec3(1.0f), metal), vec3(0.3f, 0.5f, 0.0f));
   test::addRectangleLight(scene, vec3(0, 3, 0), vec2(1.0f), vec3(8.0f));
   scene.sky = vec3(0.2f, 0.3f, 0.4f);
   return scene;
@@ -61,17 +62,21 @@ Rendered fresh(const Scene& scene, const View& view, const Settings& settings) {
 }
 
 TEST(ReferenceMethod, GivesTheSameBitsAtAnyNumberOfThreads) {
-  const auto withThreads = [](int threads) {
+  const auto withThreads = [](int threads, bool glossyBounces) {
     const tbb::global_control atMost(tbb::global_control::max_allowed_parallelism,
                                      static_cast<size_t>(threads));
     tbb::task_arena arena(threads);
-    return arena.execute([] { return fresh(litRoom(), litRoomView(), settingsOf(4, 4)); });
+    Settings settings = settingsOf(4, 4);
+    settings.set("glossy_bounces", glossyBounces);
+    return arena.execute([&] { return fresh(litRoom(), litRoomView(), settings); });
   };
-  const Rendered one = withThreads(1);
-  for (const int threads : {2, 5}) {
-    const Rendered many = withThreads(threads);
-    EXPECT_TRUE(test::sameBits(one.image, many.image)) << threads;
-    EXPECT_EQ(one.rays, many.rays) << threads;
+  for (const bool glossyBounces : {false, true}) {
+    const Rendered one = withThreads(1, glossyBounces);
+    for (const int threads : {2, 5}) {
+      const Rendered many = withThreads(threads, glossyBounces);
+      EXPECT_TRUE(test::sameBits(one.image, many.image)) << threads;
+      EXPECT_EQ(one.rays, many.rays) << threads;
+    }
   }
 }
 
@@ -119,6 +124,8 @@ TEST(ReferenceMethod, RestartsWhenAnythingChanges) {
   expectFresh({}, "bounces");
   settings = settingsOf(3, 1, 1, 9);
   expectFresh({}, "seed");
+  settings.set("glossy_bounces", true);
+  expectFresh({}, "glossy bounces");
   settings = settingsOf(2, 1, 1, 9);
   expectFresh({}, "fewer paths");
   settings = settingsOf(5, 1, 1, 9);
