@@ -101,7 +101,8 @@ Sight seenAlong(const LineRaster& raster, const glm::ivec2& cell, const vec3& at
   if (before < 0 || before >= count) return Sight::unclear;
   const LineCrossing& last = crossings[static_cast<size_t>(before)];
   const float tilt = 1.0f + std::abs(slope.x / grid.cell) + std::abs(slope.y / grid.cell);
-  if (raster.triangle(last.triangle).object != from.object ||
+  const LineTriangle& owner = raster.triangle(last.triangle);
+  if (owner.object != from.object || (owner.facesAlong == (sign > 0.0f)) == from.isBack ||
       std::abs(last.depth - own) > kOwnBehind * grid.cell * tilt)
     return Sight::unclear;
   if (next < 0 || next >= count) {

@@ -18,6 +18,7 @@ struct FieldReceiver {
   vec3 normal{0.0f};                  // smooth
   vec3 geometricNormal{0.0f};
   uint32_t object = 0;
+  bool isBack = false;    // of the object
   bool seesSky = true;    // false: the light of the sky leaves it out
   bool isBuried = false;  // it sees nothing
 };

@@ -83,11 +83,14 @@ void LightField::findReceivers(const RenderScene& scene) {
   tbb::parallel_for(size_t{0}, texels.size(), [&](size_t t) {
     const SurfaceTexel& texel = texels[t];
     const SurfaceSpot& spot = texel.spot;
-    receivers_[t] = {
-        spot.position,     spot.rayOrigin(),
-        spot.normal,       spot.geometricNormal,
-        texel.object,      !isLeftOut(scene.objects[texel.object].leftOutBy, scene.skyLink),
-        texels.isBuried(t)};
+    receivers_[t] = {spot.position,
+                     spot.rayOrigin(),
+                     spot.normal,
+                     spot.geometricNormal,
+                     texel.object,
+                     texel.place.triangle >= scene.objects[texel.object].triangleCount(),
+                     !isLeftOut(scene.objects[texel.object].leftOutBy, scene.skyLink),
+                     texels.isBuried(t)};
   });
 }
 
@@ -146,10 +149,7 @@ void LightField::update(const RenderScene& scene, Services& services,
 // opposite ones [W/(m² sr)].
 std::vector<vec4> LightField::skyOf(const FieldDirections& directions) const {
   std::vector<vec4> out(2 * directions.size(), vec4(0.0f));
-  vec3 brightness(0.0f);
-  for (const Emitter& e : lights_.emitters())
-    if (e.kind == EmitterKind::sky && e.skySun == 0) brightness = e.brightness();
-  if (brightness == vec3(0.0f) || lights_.unitSky().isBlack()) return out;
+  if (skyBrightness() == vec3(0.0f)) return out;
   tbb::parallel_for(size_t{0}, out.size(), [&](size_t end) {
     const size_t d = end % directions.size();
     const float radius = std::sqrt(directions.weightOf(d) / kPi);
@@ -162,9 +162,21 @@ std::vector<vec4> LightField::skyOf(const FieldDirections& directions) const {
           glm::normalize(frame.toWorld({far * std::cos(turn), far * std::sin(turn), 1.0f}));
       sum += lights_.referenceSky().withoutSuns(at) / lights_.skyReference();
     }
-    out[end] = sending(brightness * sum / static_cast<float>(kSkyPlaces));
+    out[end] = sending(skyBrightness() * sum / static_cast<float>(kSkyPlaces));
   });
   return out;
+}
+
+vec3 LightField::skyBrightness() const {
+  if (lights_.unitSky().isBlack()) return vec3(0.0f);
+  for (const Emitter& e : lights_.emitters())
+    if (e.kind == EmitterKind::sky && e.skySun == 0) return e.brightness();
+  return vec3(0.0f);
+}
+
+vec3 LightField::skyTowards(const vec3& direction) const {
+  if (!options_.showsSky || skyBrightness() == vec3(0.0f)) return vec3(0.0f);
+  return skyBrightness() * lights_.referenceSky().withoutSuns(direction) / lights_.skyReference();
 }
 
 // Sets what texels send: what they reflect of the light of lamps, of the sky and of bounced light,
@@ -238,6 +250,11 @@ void LightField::show() {
   if (former_.size() == now.size()) {
     const float share = table_.shareKnown();
     for (size_t t = 0; t < now.size(); ++t) now[t] = glm::mix(former_[t], now[t], share);
+  }
+  reflected_.assign(now.size(), vec3(0.0f));
+  for (size_t t = 0; options_.showsBounces && t < now.size(); ++t) {
+    const vec3 sky = options_.showsSky ? vec3(0.0f) : irradianceOf(skySums_[t]);
+    reflected_[t] = albedo_[t] * (lampLight_[t] + sky + now[t]);
   }
   irradiance_ = std::move(now);
   ++version_;

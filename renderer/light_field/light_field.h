@@ -56,7 +56,9 @@ class LightField final : public TexelIrradiance {
     return ground_.blendAt(scene, rays, object, triangle, isBack, position);
   }
 
-  const TexelSet& texels() const { return ground_.set(); }
+  const std::vector<vec3>& reflected() const override { return reflected_; }
+  vec3 skyTowards(const vec3& direction) const override;
+  const TexelSet& texels() const override { return ground_.set(); }
   const std::vector<ObjectAtlas>& atlases() const { return ground_.atlases(); }
   // Of the first set.
   const FieldDirections& directions() const { return directions_; }
@@ -90,6 +92,7 @@ class LightField final : public TexelIrradiance {
     return static_cast<size_t>(options_.sets - 1) * directions_.size();
   }
   std::vector<vec4> skyOf(const FieldDirections& directions) const;
+  vec3 skyBrightness() const;
   void send(const std::vector<vec3>& bounced);
   void bounce();
   void show();
@@ -114,6 +117,7 @@ class LightField final : public TexelIrradiance {
   size_t nextOfSets_ = 0;           // direction of the other sets
   std::vector<vec3> former_;        // light of before, while partners are found from nothing
   std::vector<vec3> irradiance_;    // by texel
+  std::vector<vec3> reflected_;     // by texel, of all light [W/m²]
   bool hasSky_ = false;             // skySums_ are those of now
   bool isLit_ = false;              // irradiance_ is that of now
   uint32_t version_ = 0;

@@ -7,6 +7,7 @@
 
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/methods/pixel_jitter.h"
+#include "renderer/methods/texel_mirror.h"
 #include "renderer/surface_light/pixels/seen_triangle.h"
 
 namespace lamplighter {
@@ -14,7 +15,8 @@ namespace lamplighter {
 AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelIrradiance& light,
                                             const SurfacePictureOptions& options,
                                             const Sample& before,
-                                            std::span<const uint32_t> movedObjects) const {
+                                            std::span<const uint32_t> movedObjects,
+                                            bool withoutLobes) const {
   const GBufferView gbuffer = in.backend.hostGBuffer();
   const RayCaster& rays = in.services.rays();
   Sample sample(static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height));
@@ -40,7 +42,8 @@ AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelIr
       out.blend = light.blendAt(in.scene, rays, p.object, p.triangle, seen.isBack, p.position);
       if (!out.blend.isAny()) continue;
       const PixelReflectance r = reflectanceOf(in.scene, p, seen.weights, view_.eye, options);
-      out.reflectance = r.diffuse + r.lobe;
+      const float even = withoutLobes ? 1.0f - PixelLobes::tracedShare(r.roughness) : 1.0f;
+      out.reflectance = r.diffuse + even * r.lobe;
     }
   });
   return sample;
@@ -68,8 +71,9 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
                                                    const std::shared_ptr<RadianceImage>& picture,
                                                    const TexelIrradiance& light, int antialias,
                                                    const SurfacePictureOptions& options,
-                                                   bool& gbufferIsCurrent) {
+                                                   uint32_t seed, bool& gbufferIsCurrent) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});
+  const TexelMirror mirror(in.scene, in.services.rays(), light);
   Sample before;
   if (changes.rebuilt || changes.materials || changes.objects || options != options_ ||
       light.texelVersion() != texelVersion_) {
@@ -87,12 +91,14 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
   if (samples_.empty()) {
     if (!gbufferIsCurrent) in.backend.renderGBuffer(view_, vec2(0.0f));
     gbufferIsCurrent = true;
-    samples_.push_back(sampleOf(in, light, options, before, changes.movedObjects));
+    samples_.push_back(sampleOf(in, light, options, before, changes.movedObjects, false));
     shown_ = nullptr;
   } else if (light.isDone() && antialias > 1 && static_cast<int>(samples_.size()) <= antialias) {
     in.backend.renderGBuffer(view_, pixelJitter(static_cast<int>(samples_.size()) - 1, antialias));
     gbufferIsCurrent = false;
-    samples_.push_back(sampleOf(in, light, options, {}, {}));
+    if (samples_.size() == 1) lobes_.restart(view_, antialias, seed);
+    samples_.push_back(sampleOf(in, light, options, {}, {}, true));
+    lobes_.add(in.scene, in.services.rays(), mirror, in.backend.hostGBuffer(), options);
   }
   // The shifted ones when there are all.
   const bool isSmooth =
@@ -123,6 +129,7 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
       }
     }
   });
+  if (isSmooth) lobes_.addTo(in.scene, mirror, sum);
   under_ = picture;
   shownOf_ = shownOf;
   shown_ = std::make_shared<HostImage>(std::move(sum));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/methods/gi_method.h"
-#include "renderer/surface_light/pixels/pixel_reflectance.h"
+#include "renderer/surface_light/pixels/pixel_lobes.h"
 #include "renderer/texels/texel_irradiance.h"
 
 namespace lamplighter {
@@ -20,7 +20,7 @@ class AtlasPicture {
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture,
                                        const TexelIrradiance& light, int antialias,
-                                       const SurfacePictureOptions& options,
+                                       const SurfacePictureOptions& options, uint32_t seed,
                                        bool& gbufferIsCurrent);
   // Whether the last picture has all shifted ones.
   bool isDone(int antialias) const {
@@ -44,16 +44,17 @@ class AtlasPicture {
   };
   using Sample = std::vector<Pixel>;
   // `before`: a sample of which pixels that show the same place of an object that did not move
-  // stay; or empty.
+  // stay; or empty. `withoutLobes`: PixelLobes adds what these reflect.
   Sample sampleOf(const FrameInputs& in, const TexelIrradiance& light,
                   const SurfacePictureOptions& options, const Sample& before,
-                  std::span<const uint32_t> movedObjects) const;
+                  std::span<const uint32_t> movedObjects, bool withoutLobes) const;
 
   View view_;
   SurfacePictureOptions options_;
   uint32_t version_ = 0, texelVersion_ = 0;  // of the light
   RenderSceneChanges unseen_;
   std::vector<Sample> samples_;  // the first without a shift
+  PixelLobes lobes_;             // of the others
   std::shared_ptr<RadianceImage> under_, shown_;
   int shownOf_ = 0;    // samples
   int antialias_ = 0;  // for which the samples are shifted

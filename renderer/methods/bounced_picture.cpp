@@ -7,6 +7,7 @@
 #include "renderer/methods/mesh_senders.h"
 #include "renderer/methods/pixel_jitter.h"
 #include "renderer/methods/surface_elements.h"
+#include "renderer/surface_light/pixels/mesh_mirror.h"
 
 namespace lamplighter {
 
@@ -58,7 +59,7 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
   if (shown_ && picture == under_ && shown == antialias_) return shown_;
   Image sum = picture->pixels();
   (shown > 1 ? smooth_ : plain_).addTo(light_.values(), records_.values(), sum);
-  if (shown > 1) lobes_.addTo(in.scene, light_, sum);
+  if (shown > 1) lobes_.addTo(in.scene, MeshMirror(gatherScene(in), light_), sum);
   under_ = picture;
   antialias_ = shown;
   shown_ = std::make_shared<HostImage>(std::move(sum));
@@ -126,7 +127,9 @@ void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, in
     pixels.replaceChanged(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
   else
     pixels.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_, samples > 1);
-  if (samples > 1) lobes_.add(gatherScene(in), gbuffer, options_);
+  if (samples > 1)
+    lobes_.add(in.scene, in.services.rays(), MeshMirror(gatherScene(in), light_), gbuffer,
+               options_);
 }
 
 }  // namespace lamplighter

@@ -148,6 +148,9 @@ void TexelRadiosity::bounce() {
     tree_.pull(radiosity_, byNode);
     links_.gather(byNode, irradiance_);
   }
+  reflected_.resize(direct.size());
+  for (size_t t = 0; t < direct.size(); ++t)
+    reflected_[t] = albedo_[t] * (direct[t] + irradiance_[t]);
   isLit_ = light_.isDone();
   ++version_;
 }

@@ -20,9 +20,9 @@ class FieldPicture {
   // `picture` plus the light; see AtlasPicture::addTo().
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture, int antialias,
-                                       const SurfacePictureOptions& options,
+                                       const SurfacePictureOptions& options, uint32_t seed,
                                        bool& gbufferIsCurrent) {
-    return picture_.addTo(in, picture, light_, antialias, options, gbufferIsCurrent);
+    return picture_.addTo(in, picture, light_, antialias, options, seed, gbufferIsCurrent);
   }
   bool isDone(int antialias) const { return light_.isDone() && picture_.isDone(antialias); }
   // Estimate of the frames until isDone(), without further changes.

@@ -206,9 +206,9 @@ void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTi
   if (!options.useLinks() || in.part == LightPart::direct) return;
   linked_.update(in, options.radiosity(options.linkBounces, options.seed), paceOf(options));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
-  out.radiance =
-      linked_.addTo(in, out.radiance, samples,
-                    {in.lightOnly, options.speculars, options.leastRoughness}, gbufferIsCurrent_);
+  out.radiance = linked_.addTo(in, out.radiance, samples,
+                               {in.lightOnly, options.speculars, options.leastRoughness},
+                               static_cast<uint32_t>(options.seed), gbufferIsCurrent_);
   const bool isDone = linked_.isDone(options.antialias);
   if (!isDone) refinement_.restart();
   out.settled = out.settled && isDone;
@@ -232,9 +232,9 @@ void ManyLights::addField(const FrameInputs& in, const Options& options, StageTi
   light.showsBounces = light.showsBounces && in.part != LightPart::direct;
   field_.update(in, light, paceOf(options));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
-  out.radiance =
-      field_.addTo(in, out.radiance, samples,
-                   {in.lightOnly, options.speculars, options.leastRoughness}, gbufferIsCurrent_);
+  out.radiance = field_.addTo(in, out.radiance, samples,
+                              {in.lightOnly, options.speculars, options.leastRoughness},
+                              static_cast<uint32_t>(options.seed), gbufferIsCurrent_);
   const bool isDone = field_.isDone(options.antialias);
   if (!isDone) refinement_.restart();
   out.settled = out.settled && isDone;

@@ -75,11 +75,12 @@ void PixelLobes::restart(const View& view, int samples, uint32_t seed) {
   seed_ = seed;
 }
 
-uint64_t PixelLobes::add(const GatherScene& scene, const GBufferView& gbuffer,
+uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
+                         const MirroredLight& light, const GBufferView& gbuffer,
                          const SurfacePictureOptions& options) {
   const auto sample = static_cast<uint32_t>(added_++);
   if (!options.speculars || options.white) return 0;
-  const bool isGlossy = std::ranges::any_of(scene.scene.materials, mayBeGlossy);
+  const bool isGlossy = std::ranges::any_of(scene.materials, mayBeGlossy);
   if (!isGlossy) return 0;
   const auto pixels = static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height);
   rays_.resize(pixels * static_cast<size_t>(samples_));
@@ -97,11 +98,12 @@ uint64_t PixelLobes::add(const GatherScene& scene, const GBufferView& gbuffer,
       if (lanes == 0) return;
       for (size_t k = lanes; k < 8; ++k) rays[k].tFar = -1.0f;
       hits.fill({});
-      scene.rays.leastHits8(rays, hits);
+      caster.leastHits8(rays, hits);
       for (size_t k = 0; k < lanes; ++k) {
         LobeRay& out = lobes[which[k]];
-        out.link = linkTo(scene, hits[k], rays[k]);
-        if (out.link.leaf == GatherLink::kSky) out.direction = packedDirection(rays[k].direction);
+        out.isToSky = !hits[k];
+        out.place =
+            out.isToSky ? packedDirection(rays[k].direction) : light.placeOf(rays[k], hits[k]);
         float& radius = guides_[which[k]].radius;
         if (radius > 0.0f) continue;
         // The width of the lobe where the ray ends, seen in the mirror.
@@ -115,9 +117,9 @@ uint64_t PixelLobes::add(const GatherScene& scene, const GBufferView& gbuffer,
     for (int x = 0; x < view_.width; ++x) {
       if (!gbuffer.isHit(x, y)) continue;
       const GBufferPoint p = gbuffer.at(x, y);
-      const SeenTriangle seen(scene.scene, p);
+      const SeenTriangle seen(scene, p);
       if (!seen.isSound) continue;
-      const PixelReflectance r = reflectanceOf(scene.scene, p, seen.weights, view_.eye, options);
+      const PixelReflectance r = reflectanceOf(scene, p, seen.weights, view_.eye, options);
       const float share = tracedShare(r.roughness);
       if (share == 0.0f || r.lobe == vec3(0.0f)) continue;
       const size_t pixel =
@@ -175,12 +177,10 @@ void PixelLobes::average(const std::vector<vec3>& from, int step, std::vector<ve
   });
 }
 
-void PixelLobes::addTo(const RenderScene& scene, const SurfaceLight& light, Image& picture) const {
-  if (rays_.empty() || light.reflected().empty()) return;
+void PixelLobes::addTo(const RenderScene& scene, const MirroredLight& light, Image& picture) const {
+  if (rays_.empty()) return;
   const size_t pixels = guides_.size();
   std::vector<vec3> seen(pixels, vec3(0.0f)), averaged(pixels);
-  const bool showsBounces = light.part() != SurfaceLightPart::sky;
-  const bool showsSky = light.part() != SurfaceLightPart::bounced;
   const auto each = [&](const auto& use) {
     tbb::parallel_for(0, view_.height, [&](int y) {
       const size_t first = static_cast<size_t>(y) * static_cast<size_t>(view_.width);
@@ -193,11 +193,10 @@ void PixelLobes::addTo(const RenderScene& scene, const SurfaceLight& light, Imag
       const LobeRay& ray = rays_[s * pixels + i];
       if (!ray.isUsed()) continue;
       ++count;
-      if (ray.link.isLeaf() && showsBounces)
-        seen[i] += gatheredLight({&ray.link, 1}, light.reflected()) / kPi;
-      if (ray.link.leaf == GatherLink::kSky && showsSky &&
-          !isLeftOut(scene.objects[guides_[i].object].leftOutBy, scene.skyLink))
-        seen[i] += light.skyBrightness() * light.skyTowards(unpackedDirection(ray.direction));
+      if (!ray.isToSky)
+        seen[i] += light.radianceOf(ray.place);
+      else if (!isLeftOut(scene.objects[guides_[i].object].leftOutBy, scene.skyLink))
+        seen[i] += light.skyTowards(unpackedDirection(static_cast<uint32_t>(ray.place)));
     }
     if (count > 0.0f) seen[i] /= count;
   });

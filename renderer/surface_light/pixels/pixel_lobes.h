@@ -1,14 +1,13 @@
-// What glossy surfaces of a view mirror: bounced light and the sky along rays of their lobes. The
-// rays are kept as links to elements, so other light traces none. Neighbouring pixels share theirs.
+// What glossy surfaces of a view mirror: bounced light and the sky along rays of their lobes. What
+// the rays see is kept, so other light traces none. Neighbouring pixels share theirs.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "renderer/image/image.h"
-#include "renderer/surface_light/gather_rays.h"
+#include "renderer/surface_light/pixels/mirrored_light.h"
 #include "renderer/surface_light/pixels/pixel_reflectance.h"
-#include "renderer/surface_light/surface_light.h"
 
 namespace lamplighter {
 
@@ -20,16 +19,16 @@ class PixelLobes {
   // `samples`: how many G-buffers of the view follow.
   void restart(const View& view, int samples, uint32_t seed);
   // One of them: a ray for each pixel with a lobe. Returns the number of rays.
-  uint64_t add(const GatherScene& scene, const GBufferView& gbuffer,
-               const SurfacePictureOptions& options);
+  uint64_t add(const RenderScene& scene, const RayCaster& rays, const MirroredLight& light,
+               const GBufferView& gbuffer, const SurfacePictureOptions& options);
   // Adds the radiance of the lobes, the mean of the samples.
-  void addTo(const RenderScene& scene, const SurfaceLight& light, Image& picture) const;
+  void addTo(const RenderScene& scene, const MirroredLight& light, Image& picture) const;
   size_t bytes() const { return rays_.size() * sizeof(LobeRay) + guides_.size() * sizeof(Guide); }
 
  private:
   struct LobeRay {
-    GatherLink link;
-    uint32_t direction = 0;                 // packed; of a link to the sky
+    uint64_t place = 0;  // MirroredLight::placeOf(), or the packed direction to the sky
+    bool isToSky = false;
     std::array<uint16_t, 3> reflectance{};  // [1/65535]; 0: no ray
     bool isUsed() const { return (reflectance[0] | reflectance[1] | reflectance[2]) != 0; }
   };

@@ -1,0 +1,198 @@
+// The method of paper 5: bounced light and the light of the sky in a light field.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "renderer/image/average_blocks.h"
+#include "renderer/image/metrics.h"
+#include "tests/support/method_room.h"
+
+namespace lamplighter {
+namespace {
+
+struct LitField : test::MethodRoom {
+  LitField() : MethodRoom("light_field", "field_samples") {
+    settings.set("field_texel", 0.3f);
+    settings.set("field_directions", std::string("129"));
+    settings.set("field_sets", 2);
+  }
+  // No ceiling, no lamp: light of the sky alone.
+  void openToTheSky() {
+    scene.find(lamp)->visible = false;
+    scene.nodes.front().visible = false;
+    test::addMesh(scene, test::squareMesh(4.0f, 0), vec3(0.0f, -1.5f, 0.0f));
+    scene.sky = Sky(vec3(1.0f));
+  }
+};
+
+TEST(LightFieldMethod, IsNearTheReference) {
+  LitField room;
+  room.settings.set("field_texel", 0.15f);
+  room.settings.set("field_directions", std::string("513"));
+  room.settings.set("antialias", 16);
+  const Image shown = averageBlocks(room.fresh(), 4);
+  const Image reference = averageBlocks(test::renderReference(room.scene, room.view, 1024, 2), 4);
+  const Metrics m = compareImages(shown, reference);
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  RecordProperty("bias", std::to_string(m.bias));
+  EXPECT_LT(m.relRmse, 0.05);
+  EXPECT_LT(std::abs(m.bias - 1.0), 0.03);
+}
+
+TEST(LightFieldMethod, EditsLeaveTheBitsOfAFreshStart) {
+  for (const std::string sight : {"lines", "rays"}) {
+    LitField room;
+    room.settings.set("field_sight", sight);
+    const Image before = room.picture(SceneChanges::all());
+    const Image dimmed =
+        room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= vec3(0.5f, 0.7f, 0.1f); });
+    EXPECT_TRUE(test::sameBits(dimmed, room.fresh()));
+    room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance = vec3(5.0f); });
+    const Image lampMoved =
+        room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.5f; });
+    EXPECT_TRUE(test::sameBits(lampMoved, room.fresh()));
+    room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x -= 0.5f; });
+    const Image boxMoved =
+        room.edited([&](Scene& s) { s.find(room.box)->local.translation.z += 0.5f; });
+    EXPECT_TRUE(test::sameBits(boxMoved, room.fresh()));
+    const Image hidden = room.edited([&](Scene& s) { s.find(room.box)->visible = false; });
+    EXPECT_TRUE(test::sameBits(hidden, room.fresh()));
+    room.edited([&](Scene& s) { s.find(room.box)->visible = true; });
+    const Image back =
+        room.edited([&](Scene& s) { s.find(room.box)->local.translation.z -= 0.5f; });
+    EXPECT_TRUE(test::sameBits(back, room.fresh()));
+    EXPECT_TRUE(test::sameBits(back, before));
+  }
+}
+
+TEST(LightFieldMethod, EditsOfMaterialsLeaveTheBitsOfAFreshStart) {
+  LitField room;
+  room.settings.set("field_sets", 1);
+  room.picture(SceneChanges::all());
+  const Image coloured = room.edited([](Scene& s) { s.materials[1].baseColor.g = 0.7f; });
+  EXPECT_EQ(room.count, 0.0);  // what texels see stays
+  EXPECT_TRUE(test::sameBits(coloured, room.fresh()));
+  const Image sided = room.edited([](Scene& s) { s.materials[1].doubleSided = true; });
+  EXPECT_TRUE(test::sameBits(sided, room.fresh()));
+  const Image clear = room.edited([](Scene& s) { s.materials[1].transmission = 1.0f; });
+  EXPECT_TRUE(test::sameBits(clear, room.fresh()));
+}
+
+TEST(LightFieldMethod, ThePictureDoesNotDependOnThreadsOrFrames) {
+  LitField room;
+  const Image expected = room.fresh();
+  room.settings.set("updates", 3);
+  EXPECT_TRUE(test::sameBits(room.fresh(), expected));
+  room.settings.reset("updates");
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_TRUE(test::sameBits(room.fresh(), expected));
+}
+
+// What texels see is kept, so that lamps cost nothing but their direct light.
+TEST(LightFieldMethod, LampsFindNothingAnew) {
+  LitField room;
+  room.settings.set("field_sets", 1);
+  room.picture(SceneChanges::all());
+  EXPECT_GT(room.count, 0.0);
+  room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.2f; });
+  EXPECT_EQ(room.count, 0.0);
+  room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= 2.0f; });
+  EXPECT_EQ(room.count, 0.0);
+}
+
+TEST(LightFieldMethod, LightOfTheSkyIsNearTheReference) {
+  LitField room;
+  room.settings.set("field_directions", std::string("513"));
+  room.openToTheSky();
+  const Image reference = test::renderReference(room.scene, room.view, 256, 2);
+  const Metrics m = compareImages(averageBlocks(room.fresh(), 4), averageBlocks(reference, 4));
+  EXPECT_LT(m.relRmse, 0.05);
+  EXPECT_LT(std::abs(m.bias - 1.0), 0.02);
+  // Another sky finds nothing anew.
+  room.settings.set("field_sets", 1);
+  room.picture(SceneChanges::all());
+  const Image dimmed = room.edited([](Scene& s) { s.sky = Sky(vec3(0.2f, 0.4f, 0.8f)); });
+  EXPECT_EQ(room.count, 0.0);
+  EXPECT_TRUE(test::sameBits(dimmed, room.fresh()));
+}
+
+// A convex object under an even sky: πL whatever the number of directions.
+TEST(LightFieldMethod, AnEvenSkyGivesExactlyPiL) {
+  for (const std::string directions : {"33", "513"}) {
+    LitField room;
+    room.settings.set("field_directions", directions);
+    room.scene.find(room.lamp)->visible = false;
+    room.scene.nodes.front().visible = false;
+    room.scene.sky = Sky(vec3(2.0f));
+    room.settings.set("antialias", 1);
+    const GiOutput out = [&] {
+      SceneChanges changes = SceneChanges::all();
+      GiOutput frame;
+      do {
+        frame = room.renderer.render({.scene = room.scene,
+                                      .changes = changes,
+                                      .view = room.view,
+                                      .method = "light_field",
+                                      .settings = room.settings,
+                                      .lightOnly = true});
+        changes = {};
+      } while (!frame.settled);
+      return frame;
+    }();
+    // White surfaces show the radiance of the sky.
+    for (const vec3& p : out.radiance->pixels().pixels) EXPECT_NEAR(p.g, 2.0f, 2e-4f);
+  }
+}
+
+TEST(LightFieldMethod, IsManyLightsWithAField) {
+  LitField room;
+  const Image field = room.fresh();
+  room.settings.set("indirect", std::string("field"));
+  EXPECT_TRUE(test::sameBits(room.fresh("many_lights"), field));
+}
+
+// The parts of the light add up.
+TEST(LightFieldMethod, DirectAndIndirectLightAreAll) {
+  LitField room;
+  room.openToTheSky();
+  room.settings.set("antialias", 1);
+  room.settings.set("field_sets", 1);
+  const auto partOf = [&](LightPart part) {
+    FrameRenderer own(makeCpuBackend());
+    SceneChanges changes = SceneChanges::all();
+    GiOutput frame;
+    do {
+      frame = own.render({.scene = room.scene,
+                          .changes = changes,
+                          .view = room.view,
+                          .method = "light_field",
+                          .settings = room.settings,
+                          .part = part});
+      changes = {};
+    } while (!frame.settled);
+    return frame.radiance->pixels();
+  };
+  Image sum = partOf(LightPart::direct);
+  const Image indirect = partOf(LightPart::indirect), all = partOf(LightPart::all);
+  for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += indirect.pixels[i];
+  EXPECT_LT(compareImages(sum, all).relRmse, 1e-4);
+  EXPECT_GT(test::meanOf(indirect).g, 0.005f * test::meanOf(all).g);
+}
+
+TEST(LightFieldMethod, ViewsShowTheField) {
+  LitField room;
+  room.picture(SceneChanges::all());
+  const Inspection inspection = room.renderer.inspect();
+  for (const std::string name :
+       {"field_texels", "field_lines", "field_direction", "field_incident"}) {
+    const ViewPicture view = inspection.pictures.at(name)();
+    EXPECT_EQ(view.problem, "");
+    EXPECT_FALSE(view.legend.empty() && view.legend.title.empty());
+    int shown = 0, pixels = room.view.width * room.view.height;
+    for (size_t i = 0; i < view.image.pixels.size(); i += 4)
+      shown += view.image.pixels[i] + view.image.pixels[i + 1] + view.image.pixels[i + 2] > 0;
+    EXPECT_GT(shown, pixels / 10) << name;
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter
