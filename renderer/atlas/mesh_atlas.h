@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,7 +26,8 @@ struct MeshAtlas {
 
 // As unwrap(); the rectangle is nearly square, and filled by the skyline heuristic.
 MeshAtlas makeMeshAtlas(std::span<const vec3> positions, std::span<const uint32_t> indices,
-                        float texelsPerMetre);
+                        float texelsPerMetre,
+                        size_t mostOfChart = std::numeric_limits<size_t>::max());
 
 // For files.
 std::vector<uint8_t> bytesOf(const MeshAtlas& atlas);

@@ -45,15 +45,14 @@ class RayBatch {
         if (rays_[k].tFar < 0.0f) continue;
         ++traced_;
         const Hit& hit = hits[k];
-        if (hit && geometry_->scene.objects[hit.object].isAreaLight) {
+        if (hit && !geometry_->withLamps && geometry_->scene.objects[hit.object].isAreaLight) {
           rays_[k].tNear = hit.t + rayEpsilon(rays_[k].origin + hit.t * rays_[k].direction);
           goesOn = true;
           continue;
         }
-        const uint32_t texel =
-            hit ? geometry_->surface.texelAt(geometry_->scene, geometry_->atlases, rays_[k], hit)
-                : sky_[k];
-        *out_[k] = texel == FieldSurface::kNone ? numbers_.dark() : texel;
+        *out_[k] = hit ? numbers_.of(geometry_->surface.texelAt(geometry_->scene,
+                                                                geometry_->atlases, rays_[k], hit))
+                       : sky_[k];
         rays_[k].tFar = -1.0f;
       }
     }
@@ -120,7 +119,7 @@ Sight seenAlong(const LineRaster& raster, const glm::ivec2& cell, const vec3& at
   const bool isBack = partner.facesAlong == (sign > 0.0f);
   const uint32_t texel =
       geometry.surface.texelAt(partner.object, isBack, partner.texelsAt(vec2(at)));
-  out = texel == FieldSurface::kNone ? numbers.dark() : texel;
+  out = numbers.of(texel);
   return Sight::seen;
 }
 

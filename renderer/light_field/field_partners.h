@@ -38,17 +38,23 @@ struct FieldGeometry {
   uint32_t set = 0;    // of the directions; their grids differ from those of another set
   float cell = 0.25f;  // side of the cells of lines [m]
   FieldSight sight = FieldSight::lines;
+  bool withLamps = false;  // as the surface
 };
 
 // A partner is the number of a texel, or one of those behind the last texel: the sky at the end of
-// a direction, the sky at its opposite end, or nothing that sends light.
+// a direction, the sky at its opposite end, nothing that sends light, or a place of an area light.
 struct PartnerNumbers {
   uint32_t texels = 0, directions = 0;
   uint32_t sky(size_t direction, bool isOpposite) const {
     return texels + static_cast<uint32_t>(direction) + (isOpposite ? directions : 0);
   }
   uint32_t dark() const { return texels + 2 * directions; }
-  uint32_t count() const { return dark() + 1; }
+  uint32_t lamp(uint32_t place) const { return dark() + 1 + place; }
+  // Of FieldSurface::texelAt().
+  uint32_t of(uint32_t texel) const {
+    if (texel == FieldSurface::kNone) return dark();
+    return texel < FieldSurface::kLamps ? texel : lamp(texel - FieldSurface::kLamps);
+  }
 };
 
 // The grid of lines of a direction.

@@ -40,11 +40,15 @@ uint32_t nearestTexel(const TexelSet& texels, const TexelSet::Part& part, int x,
 }  // namespace
 
 FieldSurface::FieldSurface(const RenderScene& scene, std::span<const ObjectAtlas> atlases,
-                           const TexelSet& texels)
-    : sides_(texels.parts().size()) {
+                           const TexelSet& texels, bool withLamps)
+    : sides_(2 * scene.objects.size()) {
   for (uint32_t o = 0; o < scene.objects.size(); ++o) {
     const RenderObject& object = scene.objects[o];
-    if (object.isAreaLight || object.isEmpty()) continue;
+    if (object.isEmpty() || (object.isAreaLight && !withLamps)) continue;
+    if (object.isAreaLight) {
+      addLamp(scene, o);
+      continue;
+    }
     const Material& material = scene.materials[static_cast<size_t>(object.material)];
     if (material.isClear()) continue;
     const ObjectAtlas* own = o < atlases.size() && atlases[o].atlas ? &atlases[o] : nullptr;
@@ -60,7 +64,7 @@ FieldSurface::FieldSurface(const RenderScene& scene, std::span<const ObjectAtlas
         out.texels[k] = own->texelsOf(t, scene.positions[i[k]]);
     }
   }
-  tbb::parallel_for(size_t{0}, sides_.size(), [&](size_t s) {
+  tbb::parallel_for(size_t{0}, texels.parts().size(), [&](size_t s) {
     const TexelSet::Part& part = texels.parts()[s];
     if (part.count == 0) return;
     Side& side = sides_[s];
@@ -77,6 +81,25 @@ FieldSurface::FieldSurface(const RenderScene& scene, std::span<const ObjectAtlas
   });
 }
 
+// The front of an area light.
+void FieldSurface::addLamp(const RenderScene& scene, uint32_t object) {
+  const RenderObject& o = scene.objects[object];
+  for (uint32_t t = 0; t < o.triangleCount(); ++t) {
+    const uint32_t* i = &scene.indices[o.firstIndex + 3 * t];
+    Triangle& out = triangles_.emplace_back();
+    out.object = object;
+    out.triangle = t;
+    out.hasTexels = true;
+    corners_.push_back({i[0], i[1], i[2]});
+    for (size_t k = 0; k < 3; ++k) out.texels[k] = static_cast<float>(kLampSide) * scene.uv0[i[k]];
+  }
+  Side& front = sides_[2 * object];
+  front.size = glm::ivec2(kLampSide);
+  const uint32_t first = kLamps + static_cast<uint32_t>(kLampPlaces * lamps_.size());
+  for (uint32_t k = 0; k < kLampPlaces; ++k) front.nearest.push_back(first + k);
+  lamps_.push_back(object);
+}
+
 uint32_t FieldSurface::texelAt(uint32_t object, bool isBack, const vec2& texels) const {
   const Side& side = sides_[2 * object + (isBack ? 1 : 0)];
   if (side.nearest.empty()) return kNone;
@@ -88,6 +111,13 @@ uint32_t FieldSurface::texelAt(uint32_t object, bool isBack, const vec2& texels)
 
 uint32_t FieldSurface::texelAt(const RenderScene& scene, std::span<const ObjectAtlas> atlases,
                                const Ray& ray, const Hit& hit) const {
+  if (scene.objects[hit.object].isAreaLight) {
+    const uint32_t* i = &scene.indices[scene.objects[hit.object].firstIndex + 3 * hit.triangle];
+    const vec2 uv = (1.0f - hit.u - hit.v) * scene.uv0[i[0]] + hit.u * scene.uv0[i[1]] +
+                    hit.v * scene.uv0[i[2]];
+    return texelAt(hit.object, isOnBack(scene, hit, ray.direction),
+                   static_cast<float>(kLampSide) * uv);
+  }
   const ObjectAtlas& own = atlases[hit.object];
   if (!own.atlas || own.atlas->chartOfTriangle[hit.triangle] < 0) return kNone;
   return texelAt(hit.object, isOnBack(scene, hit, ray.direction),

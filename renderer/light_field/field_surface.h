@@ -14,11 +14,16 @@ class FieldSurface {
  public:
   static constexpr uint32_t kNone = TexelSet::kNone;
 
+  // Numbers from here on are of places on area lights, not of texels.
+  static constexpr uint32_t kLamps = 0x80000000u;
+  // Of the surface of an area light, in rows of the picture that it may have.
+  static constexpr int kLampSide = 8, kLampPlaces = kLampSide * kLampSide;
+
   FieldSurface() = default;
-  // Area lights block no bounced light, so that they can move freely, and clear materials let it
-  // through. `atlases`: by object, of the texels.
+  // Clear materials let light through. `withLamps`: area lights send light and block it; otherwise
+  // they block no light, so that they can move freely. `atlases`: by object, of the texels.
   FieldSurface(const RenderScene& scene, std::span<const ObjectAtlas> atlases,
-               const TexelSet& texels);
+               const TexelSet& texels, bool withLamps);
 
   struct Triangle {
     std::array<vec2, 3> texels;  // where its corners are in the rectangle of the object
@@ -33,14 +38,20 @@ class FieldSurface {
   std::span<const Corners> corners() const { return corners_; }
 
   // The texel that reflects light from a place of a side of an object, given in texels of its
-  // rectangle: the nearest one that is not buried. kNone: the side reflects nothing.
+  // rectangle: the nearest one that is not buried; or the place of an area light, kLamps and more.
+  // kNone: the side sends nothing.
   uint32_t texelAt(uint32_t object, bool isBack, const vec2& texels) const;
   // Of a hit of a ray.
   uint32_t texelAt(const RenderScene& scene, std::span<const ObjectAtlas> atlases, const Ray& ray,
                    const Hit& hit) const;
+  // Area lights that send light, by object; place number k of the light i is kLamps + i kLampPlaces
+  // + k.
+  std::span<const uint32_t> lamps() const { return lamps_; }
   size_t bytes() const;
 
  private:
+  void addLamp(const RenderScene& scene, uint32_t object);
+
   struct Side {
     glm::ivec2 size{0};
     std::vector<uint32_t> nearest;  // by row and column
@@ -48,6 +59,7 @@ class FieldSurface {
   std::vector<Triangle> triangles_;
   std::vector<Corners> corners_;
   std::vector<Side> sides_;  // the front and the back of each object
+  std::vector<uint32_t> lamps_;
 };
 
 }  // namespace lamplighter

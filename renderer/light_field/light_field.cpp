@@ -8,12 +8,15 @@
 
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/scene/light_linking.h"
+#include "renderer/scene/surface.h"
 
 namespace lamplighter {
 namespace {
 
 // Memory of a texel besides its partners, about [bytes].
 constexpr size_t kTexelBytes = 400;
+// Of all texels, that a chart may have: the ground around a house leaves some for the rooms.
+constexpr float kShareOfChart = 1.0f / 16.0f;
 // Lines cost as much as rays where a texel has so many triangles (README).
 constexpr size_t kTrianglesATexel = 32;
 // Places of a direction's part of the sphere at which the sky is taken.
@@ -28,22 +31,64 @@ size_t directionsOf(const LightFieldOptions& options) {
 
 vec4 sending(const vec3& radiance) { return {radiance, 0.0f}; }
 
+// Of the places of an area light: the mean over some points of each.
+std::vector<vec4> emissionOfLamp(const RenderScene& scene, uint32_t object) {
+  constexpr uint32_t kPoints = 1024, kLeastPoints = 16, kPointSet = 0x1a3b;
+  const RenderObject& o = scene.objects[object];
+  std::vector<vec4> sums(FieldSurface::kLampPlaces, vec4(0.0f));
+  const uint32_t points = std::max(kLeastPoints, kPoints / std::max(o.triangleCount(), 1u));
+  for (uint32_t t = 0; t < o.triangleCount(); ++t) {
+    const uint32_t* i = &scene.indices[o.firstIndex + 3 * t];
+    for (uint32_t k = 0; k < points; ++k) {
+      vec2 w = sobol2(k, kPointSet + t);  // weights of the second and third corner
+      if (w.x + w.y > 1.0f) w = 1.0f - w;
+      const vec2 uv =
+          (1.0f - w.x - w.y) * scene.uv0[i[0]] + w.x * scene.uv0[i[1]] + w.y * scene.uv0[i[2]];
+      const glm::ivec2 at = glm::clamp(glm::ivec2(static_cast<float>(FieldSurface::kLampSide) * uv),
+                                       0, FieldSurface::kLampSide - 1);
+      sums[static_cast<size_t>(at.y * FieldSurface::kLampSide + at.x)] +=
+          vec4(surfaceAt(scene, object, t, w.x, w.y).emission, 1.0f);
+    }
+  }
+  for (vec4& sum : sums) sum = sum.w > 0.0f ? sending(vec3(sum) / sum.w) : vec4(0.0f);
+  return sums;
+}
+
+// Mean over the area of a texel of an emissive surface.
+vec3 emissionOf(const RenderScene& scene, const SurfaceTexel& texel) {
+  const uint32_t triangles = scene.objects[texel.object].triangleCount();
+  vec3 sum(0.0f);
+  for (const SurfacePlace& place : texel.spread) {
+    const bool isBack = place.triangle >= triangles;
+    const Surface s =
+        surfaceAt(scene, texel.object, place.triangle - (isBack ? triangles : 0), place.u, place.v);
+    if (!isBack || s.emitsBothSides) sum += s.emission;
+  }
+  return sum / static_cast<float>(texel.spread.size());
+}
+
 }  // namespace
 
 void LightField::takeGeometry(const RenderScene& scene, Services& services,
                               const RenderSceneChanges& changes) {
-  const auto sideOf = [&] {
+  const auto sizeOf = [&] {
     const size_t bytes = directionsOf(options_) * sizeof(uint32_t) + kTexelBytes;
-    return texelSideFor(scene, options_.texel, options_.memory / bytes);
+    return texelSizeFor(scene, options_.texel, options_.memory / bytes, kShareOfChart);
   };
   const SceneTexels::Update update =
-      ground_.take(scene, services, changes, sideOf, TexelOrder::zigzag);
+      ground_.take(scene, services, changes, sizeOf, TexelOrder::zigzag);
   const TexelSet& texels = ground_.set();
   if (update.change == SceneTexels::Change::lamps) {
     lamps_.outdate(update.moves, false);
+    if (options_.withLamps) {
+      surface_ = FieldSurface(scene, ground_.atlases(), texels, true);
+      table_.outdate();
+      nextOfSets_ = 0;
+      hasSources_ = isLit_ = false;
+    }
   } else if (update.change == SceneTexels::Change::found) {
     const size_t before = receivers_.size();
-    surface_ = FieldSurface(scene, ground_.atlases(), texels);
+    surface_ = FieldSurface(scene, ground_.atlases(), texels, options_.withLamps);
     findReceivers(scene);
     blocks_ = SenderBlocks(texels);
     const bool areLines = surface_.triangles().size() <= kTrianglesATexel * texels.size();
@@ -71,7 +116,7 @@ void LightField::takeGeometry(const RenderScene& scene, Services& services,
       table_.restart(texels.size(), texels.size() > 0 ? directions_.size() : 0);
     }
     nextOfSets_ = 0;
-    hasSky_ = isLit_ = false;
+    hasSources_ = isLit_ = false;
   }
   if (update.change == SceneTexels::Change::found || changes.materials || changes.objects)
     albedo_ = albedoOf(scene, texels);
@@ -126,23 +171,23 @@ void LightField::update(const RenderScene& scene, Services& services,
   if (!isSame) {
     lights_ = LightSet(scene, lights_);
     isLit_ = false;
-    hasSky_ = hasSky_ && !changes.sky && !changes.gains;
+    hasSources_ = hasSources_ && !changes.sky && !changes.gains && !options.withLamps;
   }
   takeGeometry(scene, services, changes);
   // A ray takes as long as some samples.
   constexpr uint64_t kSamplesARay = 8;
   counts_.lampRays = lamps_.update(scene, rays, lights_, ground_.set(), changes.movedObjects,
-                                   options.seed, mostWork / kSamplesARay / 2);
+                                   options.seed, mostWork / kSamplesARay / 2, options.withLamps);
   isLit_ = isLit_ && !lamps_.changed();
   if (!table_.isDone() && !ground_.isStale()) {
     counts_.partners = table_.goOn(geometryOf(scene, rays, directions_, 0), mostWork);
-    hasSky_ = isLit_ = false;
+    hasSources_ = isLit_ = false;
   }
-  if (!isLit_) bounce();
+  if (!isLit_) bounce(scene);
   if (isLit_ && table_.isDone() && changes.none()) findSets(scene, rays, mostWork);
   counts_.bytes = table_.bytes() + surface_.bytes() + lamps_.bytes() +
                   receivers_.size() * sizeof(FieldReceiver) +
-                  (skySums_.size() + bounceSums_.size() + setSums_.size()) * sizeof(vec4);
+                  (sourceSums_.size() + bounceSums_.size() + setSums_.size()) * sizeof(vec4);
 }
 
 // What the sky sends from the part of the sphere of each direction, without its suns; then of the
@@ -179,54 +224,71 @@ vec3 LightField::skyTowards(const vec3& direction) const {
   return skyBrightness() * lights_.referenceSky().withoutSuns(direction) / lights_.skyReference();
 }
 
+// What is sent without a bounce.
+void LightField::findSources(const RenderScene& scene) {
+  sources_.assign(receivers_.size(), vec4(0.0f));
+  const std::vector<vec4> sky = skyOf(directions_);
+  sources_.insert(sources_.end(), sky.begin(), sky.end());
+  sources_.emplace_back(0.0f);  // PartnerNumbers::dark()
+  if (!options_.withLamps) return;
+  for (const uint32_t object : surface_.lamps()) {
+    const std::vector<vec4> lamp = emissionOfLamp(scene, object);
+    sources_.insert(sources_.end(), lamp.begin(), lamp.end());
+  }
+  for (const Emitter& e : lights_.emitters()) {
+    if (e.kind != EmitterKind::surface || scene.objects[e.object].isAreaLight) continue;
+    for (const size_t side : {2 * e.object, 2 * e.object + 1}) {
+      const TexelSet::Part& part = ground_.set().parts()[side];
+      for (uint32_t t = part.first; t < part.first + part.count; ++t)
+        sources_[t] = sending(emissionOf(scene, ground_.set()[t]));
+    }
+  }
+}
+
 // Sets what texels send: what they reflect of the light of lamps, of the sky and of bounced light,
-// which is given by block.
-void LightField::send(const std::vector<vec3>& bounced) {
-  sent_.assign(sky_.size(), vec4(0.0f));
+// which is found by block.
+void LightField::send() {
+  sent_.assign(sources_.size(), vec4(0.0f));
   tbb::parallel_for(size_t{0}, receivers_.size(), [&](size_t t) {
-    vec3 light = lampLight_[t] + irradianceOf(skySums_[t]);
-    if (!bounced.empty()) light += bounced[blocks_.blockOf[t]];
+    vec3 light = lampLight_[t] + irradianceOf(sourceSums_[t]);
+    if (!bounced_.empty()) light += bounced_[blocks_.blockOf[t]];
     sent_[t] = sending(albedo_[t] * light / kPi);
   });
 }
 
 // From nothing: light of the sky, then each bounce.
-void LightField::bounce() {
+void LightField::bounce(const RenderScene& scene) {
   const std::vector<PartnerRow> rows = table_.rows();
   if (rows.empty() || receivers_.empty()) {
     isLit_ = receivers_.empty();
     return;
   }
-  if (!hasSky_) {
-    sky_.assign(receivers_.size(), vec4(0.0f));
-    const std::vector<vec4> sky = skyOf(directions_);
-    sky_.insert(sky_.end(), sky.begin(), sky.end());
-    sky_.emplace_back(0.0f);  // PartnerNumbers::dark()
-    skySums_.assign(receivers_.size(), vec4(0.0f));
-    addGathered(receivers_, directions_, rows, sky_, skySums_);
-    hasSky_ = table_.isDone();
+  if (!hasSources_) {
+    findSources(scene);
+    sourceSums_.assign(receivers_.size(), vec4(0.0f));
+    addGathered(receivers_, directions_, rows, sources_, sourceSums_);
+    hasSources_ = table_.isDone();
   }
   lampLight_.resize(receivers_.size());
   lamps_.sum(lights_, lampLight_);
-  std::vector<vec3> bounced;
+  bounced_.clear();
   const int bounces = options_.showsBounces ? options_.bounces : 0;
   for (int b = 1; b < bounces; ++b) {
-    send(bounced);
+    send();
     FieldSums sums(blocks_.texels.size(), vec4(0.0f));
     addGathered(receivers_, blocks_.texels, directions_, rows, sent_, sums);
-    bounced.resize(sums.size());
-    std::ranges::transform(sums, bounced.begin(), irradianceOf);
+    bounced_.resize(sums.size());
+    std::ranges::transform(sums, bounced_.begin(), irradianceOf);
   }
   bounceSums_.assign(receivers_.size(), vec4(0.0f));
   if (bounces > 0) {
-    send(bounced);
+    send();
     addGathered(receivers_, directions_, rows, sent_, bounceSums_);
   } else {
-    sent_.assign(sky_.size(), vec4(0.0f));
+    sent_.assign(sources_.size(), vec4(0.0f));
   }
   if (options_.showsSky)
-    std::copy(sky_.begin() + static_cast<ptrdiff_t>(receivers_.size()), sky_.end(),
-              sent_.begin() + static_cast<ptrdiff_t>(receivers_.size()));
+    for (size_t k = 0; k < sent_.size(); ++k) sent_[k] += sources_[k];
   isLit_ = lamps_.isDone() && table_.isDone();
   nextOfSets_ = 0;
   setSums_.clear();
@@ -238,7 +300,7 @@ void LightField::show() {
   std::vector<vec3> now(receivers_.size());
   tbb::parallel_for(size_t{0}, now.size(), [&](size_t t) {
     const vec4& bounced = bounceSums_[t];
-    const vec4& sky = skySums_[t];
+    const vec4& sky = sourceSums_[t];
     vec4 sum(0.0f, 0.0f, 0.0f, sky.w);
     if (options_.showsBounces) sum += vec4(vec3(bounced), 0.0f);
     if (options_.showsSky) sum += vec4(vec3(sky), 0.0f);
@@ -251,13 +313,26 @@ void LightField::show() {
     const float share = table_.shareKnown();
     for (size_t t = 0; t < now.size(); ++t) now[t] = glm::mix(former_[t], now[t], share);
   }
-  reflected_.assign(now.size(), vec3(0.0f));
-  for (size_t t = 0; options_.showsBounces && t < now.size(); ++t) {
-    const vec3 sky = options_.showsSky ? vec3(0.0f) : irradianceOf(skySums_[t]);
-    reflected_[t] = albedo_[t] * (lampLight_[t] + sky + now[t]);
-  }
+  findReflected();
   irradiance_ = std::move(now);
   ++version_;
+}
+
+// The light of all bounces but the last is known by block. Within a block it is spread like that of
+// the last, so that mirrors show no blocks.
+void LightField::findReflected() {
+  reflected_.assign(receivers_.size(), vec3(0.0f));
+  if (!options_.showsBounces) return;
+  std::vector<vec3> shares(blocks_.texels.size(), vec3(0.0f));
+  for (size_t b = 0; b < bounced_.size(); ++b) {
+    const vec3 last = irradianceOf(bounceSums_[blocks_.texels[b]]);
+    for (int c = 0; c < 3; ++c)
+      shares[b][c] = last[c] > 0.0f ? std::min(1.0f, bounced_[b][c] / last[c]) : 0.0f;
+  }
+  tbb::parallel_for(size_t{0}, reflected_.size(), [&](size_t t) {
+    reflected_[t] = albedo_[t] * (lampLight_[t] + irradianceOf(sourceSums_[t]) +
+                                  shares[blocks_.blockOf[t]] * irradianceOf(bounceSums_[t]));
+  });
 }
 
 // Turned sets of directions: each adds to the sums of all texels, so that none shows its

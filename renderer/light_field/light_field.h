@@ -25,8 +25,9 @@ struct LightFieldOptions {
   float texel = 0.1f;  // side where memory allows it [m]
   int divisions = 16;  // of the octahedron: 2 divisions² + 1 directions
   FieldSightChoice sight = FieldSightChoice::automatic;
-  float cell = 1.0f;                  // side of the cells of lines [texels]
-  int sets = 4;                       // of directions, each turned; all but the first at rest
+  float cell = 1.0f;       // side of the cells of lines [texels]
+  bool withLamps = false;  // area lights and surfaces that emit send their light along the field
+  int sets = 4;            // of directions, each turned; all but the first at rest
   size_t memory = size_t{128} << 20;  // of partners, about
   int bounces = 2;
   bool showsSky = true, showsBounces = true;  // what irradiance() is the sum of
@@ -92,10 +93,12 @@ class LightField final : public TexelIrradiance {
     return static_cast<size_t>(options_.sets - 1) * directions_.size();
   }
   std::vector<vec4> skyOf(const FieldDirections& directions) const;
+  void findSources(const RenderScene& scene);
   vec3 skyBrightness() const;
-  void send(const std::vector<vec3>& bounced);
-  void bounce();
+  void send();
+  void bounce(const RenderScene& scene);
   void show();
+  void findReflected();
 
   LightFieldOptions options_;
   RenderSceneChanges unseen_;
@@ -109,17 +112,19 @@ class LightField final : public TexelIrradiance {
   SenderBlocks blocks_;
   std::vector<vec3> albedo_;  // by texel
   TexelLight lamps_;
-  // What partners send [W/(m² sr)], by PartnerNumbers: the sky alone; for the last bounce, texels.
-  PartnerRadiance sky_, sent_;
-  std::vector<vec3> lampLight_;     // irradiance by lamps and suns, by texel [W/m²]
-  FieldSums skySums_, bounceSums_;  // of the first set
-  FieldSums setSums_;               // of the other sets so far: what is shown
-  size_t nextOfSets_ = 0;           // direction of the other sets
-  std::vector<vec3> former_;        // light of before, while partners are found from nothing
-  std::vector<vec3> irradiance_;    // by texel
-  std::vector<vec3> reflected_;     // by texel, of all light [W/m²]
-  bool hasSky_ = false;             // skySums_ are those of now
-  bool isLit_ = false;              // irradiance_ is that of now
+  // What partners send [W/(m² sr)], by PartnerNumbers: the sky, and lamps that send their light
+  // along the field; for the last bounce, texels and what is shown of these.
+  PartnerRadiance sources_, sent_;
+  std::vector<vec3> lampLight_;        // irradiance by lamps and suns, by texel [W/m²]
+  FieldSums sourceSums_, bounceSums_;  // of the first set
+  FieldSums setSums_;                  // of the other sets so far: what is shown
+  size_t nextOfSets_ = 0;              // direction of the other sets
+  std::vector<vec3> former_;           // light of before, while partners are found from nothing
+  std::vector<vec3> irradiance_;       // by texel
+  std::vector<vec3> bounced_;          // irradiance by all bounces but the last, by block [W/m²]
+  std::vector<vec3> reflected_;        // by texel, without the last bounce [W/m²]
+  bool hasSources_ = false;            // sourceSums_ are those of now
+  bool isLit_ = false;                 // irradiance_ is that of now
   uint32_t version_ = 0;
   Counts counts_;
 };

@@ -40,10 +40,10 @@ const SurfaceSampler& Services::surfaces() {
   return *surfaces_;
 }
 
-std::span<const ObjectAtlas> Services::charts(float texelsPerMetre) {
+std::span<const ObjectAtlas> Services::charts(const TexelDensity& density) {
   note(Service::charts);
   if (!charts_) charts_ = std::make_unique<ObjectCharts>(cacheFolder_);
-  return charts_->find(*scene_, texelsPerMetre);
+  return charts_->find(*scene_, density);
 }
 
 }  // namespace lamplighter

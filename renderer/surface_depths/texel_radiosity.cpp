@@ -25,14 +25,15 @@ constexpr uint64_t kRaysALinkedTexel = 64, kKnownARay = 8;
 float texelSideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
   const size_t bytes =
       options.map.pixels() * kSegmentBytes / kTexelsASegment + kLinksATexel * sizeof(TexelLink);
-  return texelSideFor(scene, options.texel, options.memory / bytes);
+  return texelSizeFor(scene, options.texel, options.memory / bytes).side;
 }
 
 // Finds the texels anew if surfaces are at other places. While surfaces move, the old texels stay.
 void TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
                                   const RenderSceneChanges& changes) {
   const SceneTexels::Update update = ground_.take(
-      scene, services, changes, [&] { return texelSideOf(scene, options_); }, options_.order);
+      scene, services, changes, [&] { return TexelSize{texelSideOf(scene, options_)}; },
+      options_.order);
   counts_.texel = ground_.side();
   counts_.rays += ground_.rays();
   const TexelSet& texels = ground_.set();
@@ -148,10 +149,6 @@ void TexelRadiosity::bounce() {
     tree_.pull(radiosity_, byNode);
     links_.gather(byNode, irradiance_);
   }
-  reflected_.resize(direct.size());
-  for (size_t t = 0; t < direct.size(); ++t)
-    reflected_[t] = albedo_[t] * (direct[t] + irradiance_[t]);
-  isLit_ = light_.isDone();
   ++version_;
 }
 

@@ -51,7 +51,7 @@ class TexelRadiosity final : public TexelIrradiance {
 
   // Of bounced light.
   const std::vector<vec3>& irradiance() const override { return irradiance_; }
-  const std::vector<vec3>& reflected() const override { return reflected_; }
+  const std::vector<vec3>& reflected() const override { return radiosity_; }
   const TexelSet& texels() const override { return ground_.set(); }
   // By object.
   const std::vector<ObjectAtlas>& atlases() const { return ground_.atlases(); }
@@ -104,7 +104,6 @@ class TexelRadiosity final : public TexelIrradiance {
   std::vector<vec3> albedo_;      // by texel
   std::vector<vec3> irradiance_;  // by texel
   std::vector<vec3> radiosity_;   // by texel, of the last bounce: the links turn it to irradiance_
-  std::vector<vec3> reflected_;   // by texel, of all light
   bool isLit_ = false;            // irradiance_ is that of now
   uint32_t version_ = 0;
   Counts counts_;

@@ -13,7 +13,7 @@ class TexelIrradiance {
   virtual ~TexelIrradiance() = default;
   // By texel [W/m²]; empty before it is found for the first time.
   virtual const std::vector<vec3>& irradiance() const = 0;
-  // What each texel reflects to glossy surfaces that mirror it [W/m²].
+  // What each texel reflects to glossy surfaces that mirror it, which is a bounce, too [W/m²].
   virtual const std::vector<vec3>& reflected() const = 0;
   // The sky that they mirror [W/(m² sr)]; 0 if it is shown by something else.
   virtual vec3 skyTowards(const vec3&) const { return vec3(0.0f); }

@@ -33,7 +33,8 @@ void TexelLight::outdate(const TexelMoves& moves, bool haveTexelsMoved) {
 
 uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                             const TexelSet& texels, std::span<const uint32_t> movedObjects,
-                            uint32_t seed, uint64_t most) {
+                            uint32_t seed, uint64_t most,
+                            bool withoutSurfaces) {
   changed_ = false;
   if (texels.size() == 0) {
     columns_.clear();
@@ -72,8 +73,9 @@ uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, con
   for (size_t e = 0; e < columns_.size() && traced < most; ++e) {
     Column& column = columns_[e];
     const EmitterFactor factor(scene, lights, e, column.id, seed);
+    const bool isLeftOut = withoutSurfaces && lights.emitters()[e].kind == EmitterKind::surface;
     const bool isPoint = lights.emitters()[e].kind == EmitterKind::punctual;
-    const size_t raysOfTexel = factor.isSampled() ? (isPoint ? 1 : kRays) : 0;
+    const size_t raysOfTexel = factor.isSampled() && !isLeftOut ? (isPoint ? 1 : kRays) : 0;
     if (raysOfTexel == 0) column.known = texels.size();
     if (column.known == texels.size()) continue;
     const size_t end =

@@ -16,12 +16,13 @@ class TexelLight {
   // When the objects that moved rest: what does not meet them stays. `haveTexelsMoved`: not only
   // area lights moved.
   void outdate(const TexelMoves& moves, bool haveTexelsMoved);
+  // `withoutSurfaces`: something else has the light of area lights and surfaces that emit.
   // Finds the light of emitters that are new, or that moved, about `most` rays at a time; until
   // then a texel keeps the old light. Returns the number of rays. `movedObjects`: since the last
   // call.
   uint64_t update(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                   const TexelSet& texels, std::span<const uint32_t> movedObjects, uint32_t seed,
-                  uint64_t most);
+                  uint64_t most, bool withoutSurfaces = false);
   // Finds the light of the sky without its suns; tests about `most` directions. Returns their
   // number.
   uint64_t updateSky(const RenderScene& scene, const LightSet& lights, const TexelSet& texels,

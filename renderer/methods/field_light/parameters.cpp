@@ -39,6 +39,11 @@ const ParameterTable<LightFieldParameters>& lightFieldParameters() {
        "edges, more work.",
        {0.1, 10.0, kLogarithmic},
        ParameterGroup::quality},
+      {&P::fieldLamps, "field_lamps", "Lamps in the field",
+       "Area lights and surfaces that emit send their light along the directions of the field, as "
+       "paper 5 has it, in place of light samples. The cost does not depend on how many there are; "
+       "small lamps show single directions.",
+       ParameterGroup::quality},
       {&P::fieldSets,
        "field_sets",
        "Sets of directions",

@@ -13,16 +13,23 @@ struct LightFieldParameters {
   int fieldDivisions = 16;
   FieldSightChoice fieldSight = FieldSightChoice::automatic;
   float fieldCell = 1.0f;  // [texels]
+  bool fieldLamps = false;
   int fieldSets = 4;
   int fieldMemory = 128;  // MiB
   bool operator==(const LightFieldParameters&) const = default;
 
   LightFieldOptions field(int bounces, int seed) const {
-    return {fieldTexel,  fieldDivisions,
-            fieldSight,  fieldCell,
-            fieldSets,   static_cast<size_t>(fieldMemory) << 20,
-            bounces,     true,
-            bounces > 0, static_cast<uint32_t>(seed)};
+    return {fieldTexel,
+            fieldDivisions,
+            fieldSight,
+            fieldCell,
+            fieldLamps,
+            fieldSets,
+            static_cast<size_t>(fieldMemory) << 20,
+            bounces,
+            true,
+            bounces > 0,
+            static_cast<uint32_t>(seed)};
   }
 };
 const ParameterTable<LightFieldParameters>& lightFieldParameters();

@@ -56,7 +56,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   StageTimer stages(in, kManyLightsStages, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0,
                   kernels_->traits().tracesShadowMaps, in.scene);
-  options.withoutSurfaces = withoutSurfaces_;
+  options.withoutSurfaces = withoutSurfaces_ || (options.useField() && options.fieldLamps);
   GiOutput out = renderSamples(in, options, stages, stats);
   addMeshes(in, options, stages, out, stats);
   addLinks(in, options, stages, out, stats);

@@ -22,7 +22,7 @@ TEST(FieldPartners, AFurnaceGivesTheGeometricSeries) {
           ASSERT_LT(partners[d * texels + t], texels) << "of direction " << d;
         }
     constexpr float kLight = 3.0f, kAlbedo = 0.6f;
-    PartnerRadiance radiance(room.numbers().count(), vec4(0.0f));
+    PartnerRadiance radiance(room.numbers().dark() + 1, vec4(0.0f));
     std::fill_n(radiance.begin(), texels, vec4(kLight, kLight, kLight, 0.0f));
     float expected = kPi * kLight, factor = 1.0f;
     std::vector<vec3> irradiance;
@@ -49,7 +49,7 @@ TEST(FieldPartners, AFurnaceGivesTheGeometricSeries) {
 TEST(FieldPartners, SentLightIsReceived) {
   const FieldRoom room(16, 0.2f);
   const std::vector<uint32_t> partners = room.partners(FieldSight::lines);
-  PartnerRadiance radiance(room.numbers().count(), vec4(0.0f));
+  PartnerRadiance radiance(room.numbers().dark() + 1, vec4(0.0f));
   double sent = 0.0, received = 0.0;
   for (size_t t = 0; t < room.receivers.size(); ++t) {
     if (room.receivers[t].isBuried) continue;
@@ -73,7 +73,7 @@ TEST(FieldPartners, LinesSeeWhatRaysSee) {
   const std::vector<uint32_t> rays = room.partners(FieldSight::rays);
   // Fewer than one in ten needs a ray.
   EXPECT_LT(byLines.rays, byLines.samples / 10);
-  PartnerRadiance radiance(room.numbers().count(), vec4(0.0f));
+  PartnerRadiance radiance(room.numbers().dark() + 1, vec4(0.0f));
   for (size_t t = 0; t < room.receivers.size(); ++t)
     radiance[t] = vec4(vec3(toUnitFloat(hash4(room.receivers[t].object,
                                               static_cast<uint32_t>(room.texels[t].chart), 0, 1))),
@@ -95,7 +95,7 @@ TEST(FieldPartners, APolygonLightIsNearItsClosedForm) {
   const auto errorOf = [](int divisions) {
     const FieldRoom room(divisions, 0.2f);
     const std::vector<uint32_t> partners = room.partners(FieldSight::rays);
-    PartnerRadiance radiance(room.numbers().count(), vec4(0.0f));
+    PartnerRadiance radiance(room.numbers().dark() + 1, vec4(0.0f));
     const auto isLit = [&](const vec3& p) {
       return p.y > 1.49f && std::abs(p.x) < 1.0f && std::abs(p.z) < 1.0f;
     };

@@ -23,15 +23,15 @@ struct FieldRoom {
     Scene room;
     addMesh(room, roomMesh(vec3(4.0f, 3.0f, 4.0f), addMaterial(room, vec3(0.7f))));
     const NodeId box =
-        addMesh(room, boxMesh(vec3(1.0f), addMaterial(room, vec3(0.5f))), vec3(0.3f, -0.9f, 0.2f));
+        addMesh(room, boxMesh(vec3(1.0f), addMaterial(room, vec3(0.5f))), vec3(0.3f, -0.5f, 0.2f));
     room.find(box)->local.rotation = glm::angleAxis(0.4f, glm::normalize(vec3(1, 2, 3)));
     scene = renderSceneOf(room);
     rays = std::make_unique<RayCaster>(scene);
-    const auto found = charts.find(scene, 1.0f / texel);
+    const auto found = charts.find(scene, {1.0f / texel});
     atlases.assign(found.begin(), found.end());
     texels = TexelSet(scene, atlases, TexelOrder::zigzag);
     texels.findBuried(scene, *rays);
-    surface = FieldSurface(scene, atlases, texels);
+    surface = FieldSurface(scene, atlases, texels, false);
     for (size_t t = 0; t < texels.size(); ++t) {
       const SurfaceSpot& spot = texels[t].spot;
       receivers.push_back({spot.position, spot.rayOrigin(), spot.normal, spot.geometricNormal,

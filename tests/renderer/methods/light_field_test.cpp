@@ -143,6 +143,67 @@ TEST(LightFieldMethod, AnEvenSkyGivesExactlyPiL) {
   }
 }
 
+// Lamps that send their light along the field, as published.
+TEST(LightFieldMethod, LampsInTheFieldAreNearTheReference) {
+  LitField room;
+  room.settings.set("field_lamps", true);
+  room.settings.set("field_texel", 0.15f);
+  room.settings.set("field_directions", std::string("513"));
+  room.settings.set("field_sets", 16);
+  const Image shown = averageBlocks(room.fresh(), 4);
+  const Image reference = averageBlocks(test::renderReference(room.scene, room.view, 1024, 2), 4);
+  const Metrics m = compareImages(shown, reference);
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  RecordProperty("bias", std::to_string(m.bias));
+  EXPECT_LT(m.relRmse, 0.08);
+  EXPECT_LT(std::abs(m.bias - 1.0), 0.03);
+}
+
+// Area lights block light then, and they move like other objects.
+TEST(LightFieldMethod, EditsOfLampsInTheFieldLeaveTheBitsOfAFreshStart) {
+  LitField room;
+  room.settings.set("field_lamps", true);
+  room.picture(SceneChanges::all());
+  const Image dimmed =
+      room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= vec3(0.5f, 0.7f, 0.1f); });
+  EXPECT_TRUE(test::sameBits(dimmed, room.fresh()));
+  const Image moved =
+      room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.5f; });
+  EXPECT_TRUE(test::sameBits(moved, room.fresh()));
+  const Image off = room.edited([&](Scene& s) { s.find(room.lamp)->visible = false; });
+  EXPECT_TRUE(test::sameBits(off, room.fresh()));
+  room.settings.set("field_lamps", false);
+  EXPECT_TRUE(test::sameBits(room.picture(), room.fresh()));
+}
+
+// The same area of lamps in one piece or in many: as many rays, samples and crossings.
+TEST(LightFieldMethod, ManyLampsCostNoMoreThanOne) {
+  const auto costOf = [](int lamps) {
+    LitField room;
+    room.settings.set("field_lamps", true);
+    room.settings.set("field_sets", 1);
+    room.scene.find(room.lamp)->visible = false;
+    for (int k = 0; k < lamps; ++k)
+      test::addRectangleLight(room.scene,
+                              vec3(-0.9f + 0.2f * static_cast<float>(k % 10), 0.7f,
+                                   -0.9f + 0.2f * static_cast<float>(k / 10)),
+                              vec2(0.05f), vec3(100.0f));
+    SceneChanges changes = SceneChanges::all();
+    double rays = 0.0, samples = 0.0;
+    GiOutput out;
+    do {
+      out = room.renderer.render({room.scene, changes, room.view, "light_field", room.settings});
+      rays += out.stats.of("field_rays");
+      samples += out.stats.of("field_samples");
+      changes = {};
+    } while (!out.settled);
+    return std::pair(rays, samples);
+  };
+  const auto one = costOf(1), many = costOf(100);
+  EXPECT_EQ(one.second, many.second);
+  EXPECT_LT(many.first, 1.05 * one.first);
+}
+
 TEST(LightFieldMethod, IsManyLightsWithAField) {
   LitField room;
   const Image field = room.fresh();
