@@ -17,8 +17,8 @@ namespace {
 
 // Encodes in memory first. So the old file stays intact until the new one is complete, and a full
 // disk is detected here: not all encoders check for it.
-void writeEncoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
-                  OIIO::TypeDesc type, const void* pixels) {
+std::vector<uint8_t> encodedImage(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                                  OIIO::TypeDesc type, const void* pixels) {
   const auto fail = [&](const std::string& why) {
     throw InputError(path.string(), "cannot be written: " + oneLine(why),
                      "name a file that ends in .png or .exr");
@@ -32,7 +32,20 @@ void writeEncoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec
       !out->open(path.filename().string(), spec) || !out->write_image(type, pixels) ||
       !out->close())
     fail(out->geterror());
-  writeWhole(path, bytes);
+  return bytes;
+}
+
+void writeEncoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                  OIIO::TypeDesc type, const void* pixels) {
+  writeWhole(path, encodedImage(path, spec, type, pixels));
+}
+
+OIIO::ImageSpec exrSpec(int width, int height, int channels) {
+  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  // A fixed time instead of the time of day, so that equal pictures give equal files.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  return spec;
 }
 
 }  // namespace
@@ -70,11 +83,13 @@ Image readImage(const std::filesystem::path& path) {
 }
 
 void writeExr(const Image& image, const std::filesystem::path& path) {
-  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
-  spec.attribute("compression", "zip");
-  // A fixed time instead of the time of day, so that equal pictures give equal files.
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
-  writeEncoded(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+  writeEncoded(path, exrSpec(image.width, image.height, 3), OIIO::TypeDesc::FLOAT,
+               image.pixels.data());
+}
+
+std::vector<uint8_t> encodeExr(int width, int height, std::span<const vec4> pixels) {
+  return encodedImage("memory.exr", exrSpec(width, height, 4), OIIO::TypeDesc::FLOAT,
+                      pixels.data());
 }
 
 void writePng(const Image8& image, const std::filesystem::path& path) {

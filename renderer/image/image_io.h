@@ -20,6 +20,10 @@ Image readImage(const std::filesystem::path& path);
 void writeExr(const Image& image, const std::filesystem::path& path);
 void writePng(const Image8& image, const std::filesystem::path& path);
 
+// An EXR in memory as writeExr() writes it, with an alpha channel. `pixels`: row 0 is the top; as
+// many as width · height. Throws InputError.
+std::vector<uint8_t> encodeExr(int width, int height, std::span<const vec4> pixels);
+
 // Encodes an 8-bit RGBA PNG in memory.
 std::vector<uint8_t> encodePng(const Image8& image);
 

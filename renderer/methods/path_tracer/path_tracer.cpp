@@ -18,6 +18,9 @@ namespace {
 // Russian roulette starts after this number of bounces; before it, no path is terminated.
 constexpr int kSureBounces = 8;
 
+// Of directions of the sphere [1/sr].
+constexpr float kUniformDensity = 1.0f / (4.0f * kPi);
+
 // The balance heuristic (Veach and Guibas 1995) for two strategies of one sample each.
 float misWeight(float pdf, float other) { return pdf / (pdf + other); }
 
@@ -32,7 +35,8 @@ struct LocalSurface {
   Surface s;
   vec3 ng, ns;
   std::optional<GlossySurface> gloss;
-  uint32_t leftOutBy;  // light_linking.h
+  uint32_t leftOutBy;    // light_linking.h
+  bool isSpace = false;  // a point without surface, which takes all light alike
 
   LocalSurface(const Surface& surface, const vec3& toViewer, uint32_t links)
       : s(surface), leftOutBy(links) {
@@ -41,18 +45,23 @@ struct LocalSurface {
     ns = side * s.normal;
     if (glm::dot(ns, toViewer) <= 0.0f) ns = ng;
   }
+  explicit LocalSurface(const vec3& place) : ng(0.0f), ns(0.0f), leftOutBy(0), isSpace(true) {
+    s.position = place;
+  }
   // Cosine with the shading normal; 0 for directions below the real surface, where light would
   // leak.
   float cosine(const vec3& w) const {
     return glm::dot(ng, w) > 0.0f ? std::max(0.0f, glm::dot(ns, w)) : 0.0f;
   }
-  // f · cos for light from w.
+  // f · cos for light from w; 1 in space.
   vec3 reflected(const vec3& w) const {
+    if (isSpace) return vec3(1.0f);
     const vec3 f = gloss ? gloss->brdf(w) : s.albedo / kPi;
     return f * cosine(w);
   }
   // The probability density per solid angle with which a path continues towards w.
   float pdf(const vec3& w) const {
+    if (isSpace) return kUniformDensity;
     return gloss ? gloss->pdf(w) : std::max(0.0f, glm::dot(ns, w)) / kPi;
   }
 };
@@ -145,6 +154,35 @@ class Tracer {
                                  {1, pdf, place.position, place.leftOutBy}));
   }
 
+  std::array<ArrivingLight, 3> arriving(const vec3& position, PathSampler& sampler,
+                                        const PathTracerOptions& options) {
+    const LocalSurface at(position);
+    std::array<ArrivingLight, 3> out;
+    out[0].towards = sampleSphere(sampler.next2());
+    const float choice = sampler.next1();
+    const vec2 onEmitter = sampler.next2(), inSky = sampler.next2();
+    out[0].light =
+        trace({position, 0.0f, out[0].towards}, sampler, options, {1, kUniformDensity, position}) /
+        kUniformDensity;
+    float probability = 0.0f;
+    const int emitter = lights_.chooseSurface(choice, probability);
+    if (emitter != kNone)
+      out[1].light = fromSurface(at, emitter, onEmitter, out[1].towards) / probability;
+    if (!scene_.sky.isBlack() && !lights_.sky().isConstant())
+      out[2].light = fromSky(at, inSky, out[2].towards);
+    return out;
+  }
+
+  ArrivingLight arriving(const vec3& position, const RenderPunctual& light) {
+    const LocalSurface at(position);
+    ArrivingLight out;
+    float distance = 0.0f;
+    out.towards = towards(at, light, distance);
+    const vec3 open = unshadowed(at, light);
+    if (open != vec3(0.0f) && visible(at, out.towards, distance)) out.light = open;
+    return out;
+  }
+
   uint64_t raysTraced() const { return raysTraced_; }
 
  private:
@@ -185,11 +223,11 @@ class Tracer {
     if (at.s.albedo == vec3(0.0f) && !at.gloss) return vec3(0.0f);
     float probability = 0.0f;
     const int emitter = lights_.chooseSurface(choice, probability);
-    vec3 radiance = fromPunctuals(at, punctualChoice);
+    vec3 radiance = fromPunctuals(at, punctualChoice), w;
     if (emitter != kNone &&
         !isLeftOut(at.leftOutBy, lights_.emitters()[static_cast<size_t>(emitter)].link))
-      radiance += fromSurface(at, emitter, u) / probability;
-    if (samplesSky) radiance += fromSky(at, skyChoice);
+      radiance += fromSurface(at, emitter, u, w) / probability;
+    if (samplesSky) radiance += fromSky(at, skyChoice, w);
     return radiance;
   }
 
@@ -211,13 +249,14 @@ class Tracer {
     return at.s.position + rayEpsilon(at.s.position) * at.ng;
   }
 
-  vec3 fromSurface(const LocalSurface& at, int emitter, vec2 u) {
+  // The unit vector towards the sample is put in w.
+  vec3 fromSurface(const LocalSurface& at, int emitter, vec2 u, vec3& w) {
     const EmitterPoint p = lights_.samplePoint(scene_, emitter, u);
     const vec3 d = p.position - at.s.position;
     const float d2 = glm::dot(d, d);
     if (d2 <= 0.0f) return vec3(0.0f);
     const float distance = std::sqrt(d2);
-    const vec3 w = d / distance;
+    w = d / distance;
     const vec3 reflected = at.reflected(w);
     const float cosThere = p.bothSides ? std::abs(glm::dot(p.normal, w)) : -glm::dot(p.normal, w);
     if (reflected == vec3(0.0f) || cosThere <= 0.0f) return vec3(0.0f);
@@ -227,8 +266,9 @@ class Tracer {
     return p.radiance * reflected * (misWeight(pdfLight, at.pdf(w)) / pdfAngle);
   }
 
-  vec3 fromSky(const LocalSurface& at, vec2 u) {
+  vec3 fromSky(const LocalSurface& at, vec2 u, vec3& w) {
     const SkyMap::Direction sky = lights_.sky().sampleDensity(u);
+    w = sky.towards;
     const vec3 reflected = at.reflected(sky.towards);
     if (reflected == vec3(0.0f) || sky.pdf <= 0.0f) return vec3(0.0f);
     if (!visible(at, sky.towards, std::numeric_limits<float>::infinity())) return vec3(0.0f);
@@ -317,6 +357,20 @@ vec3 traceIrradiance(const RenderScene& scene, const RayCaster& caster, const Li
                      const PathTracerOptions& options) {
   PathSampler sampler(pixel, sample, options.seed);
   return Tracer(scene, caster, lights).irradiance(place, sampler, options);
+}
+
+std::array<ArrivingLight, 3> traceArrivingLight(const RenderScene& scene, const RayCaster& caster,
+                                                const LightSet& lights, const vec3& position,
+                                                uint32_t pixel, uint32_t sample,
+                                                const PathTracerOptions& options) {
+  PathSampler sampler(pixel, sample, options.seed);
+  return Tracer(scene, caster, lights).arriving(position, sampler, options);
+}
+
+ArrivingLight arrivingPunctual(const RenderScene& scene, const RayCaster& caster,
+                               const LightSet& lights, const vec3& position,
+                               const RenderPunctual& light) {
+  return Tracer(scene, caster, lights).arriving(position, light);
 }
 
 }  // namespace lamplighter

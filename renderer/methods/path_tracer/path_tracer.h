@@ -2,6 +2,8 @@
 // rays and the list of lights with the methods that are compared with it.
 #pragma once
 
+#include <array>
+
 #include "renderer/methods/light_part.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/emitters/lights.h"
@@ -45,5 +47,25 @@ struct ReceivingPlace {
 vec3 traceIrradiance(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
                      const ReceivingPlace& place, uint32_t pixel, uint32_t sample,
                      const PathTracerOptions& options);
+
+// Light that arrives at a point of space: radiance times solid angle [W/m²], so that
+// ∫ L(ω) f(ω) dω is estimated by the sum of light · f(towards).
+struct ArrivingLight {
+  vec3 towards{0, 0, 1};  // unit vector from the point to where the light comes from
+  vec3 light{0.0f};
+};
+// An unbiased estimate of the light that arrives at a point of space, from sample number `sample`:
+// along a direction with constant density over the sphere, from a point of an emissive surface, and
+// from a direction of the sky, weighted by the balance heuristic. The directions of an aligned
+// power of two of samples are stratified. Without punctual lights. Nothing is left out by links of
+// lights. `bounces` counts the bounces before the light arrives. Depends only on its arguments.
+std::array<ArrivingLight, 3> traceArrivingLight(const RenderScene& scene, const RayCaster& caster,
+                                                const LightSet& lights, const vec3& position,
+                                                uint32_t pixel, uint32_t sample,
+                                                const PathTracerOptions& options);
+// The light that arrives from a punctual light: exact, by one ray. 0 if it is hidden.
+ArrivingLight arrivingPunctual(const RenderScene& scene, const RayCaster& caster,
+                               const LightSet& lights, const vec3& position,
+                               const RenderPunctual& light);
 
 }  // namespace lamplighter

@@ -1,0 +1,83 @@
+// Automatic placement of light probes: a regular grid anchored in the world, with the state of each
+// place by rays. Lengths are in the unit of the scene (RenderScene::unit).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/raycast/ray_caster.h"
+
+namespace lamplighter {
+
+struct ProbeGridOptions {
+  float spacing = 1.0f;   // between neighbours, along each axis
+  float padding = 0.25f;  // least distance to surfaces
+  int most = 32768;       // of all places; the spacing is larger if there would be more
+
+  bool operator==(const ProbeGridOptions&) const = default;
+};
+
+enum class ProbeState : uint8_t {
+  valid,
+  inside,   // of a wall or an object, or behind the walls of a level
+  near,     // nearer to a surface than the padding, and no better place within reach
+  outside,  // it sees nothing of the level
+  dark      // beside the level, where no light is
+};
+inline constexpr int kProbeStates = 5;
+
+struct Probe {
+  vec3 position{0.0f};  // world space; moved from its node by at most half the spacing on each axis
+  ProbeState state = ProbeState::outside;
+  float open = 1.0f;  // share of the rays from there that meet nothing
+  uint32_t key = 0;   // a function of the node's place in the world, for random numbers
+  bool isValid() const { return state == ProbeState::valid; }
+};
+
+// Nodes at integer multiples of the spacing in the world, so that they stay where they are when the
+// bounds change.
+struct ProbeGrid {
+  glm::ivec3 first{0};        // of the node with index 0, in multiples of the spacing
+  glm::ivec3 size{0};         // nodes along x, y and z
+  float spacing = 0.0f;       // at least that of the options
+  std::vector<Probe> probes;  // x varies fastest, then y, then z
+  bool isCoarser = false;     // than the options demand, because of their bound
+
+  size_t indexOf(const glm::ivec3& node) const {
+    return (static_cast<size_t>(node.z) * static_cast<size_t>(size.y) +
+            static_cast<size_t>(node.y)) *
+               static_cast<size_t>(size.x) +
+           static_cast<size_t>(node.x);
+  }
+  glm::ivec3 nodeAt(size_t index) const;
+  vec3 placeOf(const glm::ivec3& node) const { return spacing * vec3(first + node); }
+  size_t count(ProbeState state) const;
+};
+
+// The nodes that cover the bounds of the scene, none of them placed yet. No bounds: no nodes.
+ProbeGrid probeNodes(const Bounds& bounds, const ProbeGridOptions& options);
+
+// Finds place and state of one node by 64 rays, and by as many from each place that is tried.
+//
+// A ray counts as a back hit if the first surface that it meets is the back of one whose back no
+// camera sees (RenderScene::backIsUnseen), and no front lies in the same place; other hits are
+// front hits. In this order a place is
+// - outside, if no ray has a front hit and at most a quarter of them have back hits (they miss),
+// - inside, if more than a quarter of the hits are back hits, or if a back is nearer than the
+//   padding and nearer than every front,
+// - near, if a front is nearer than the padding,
+// - valid otherwise.
+// A node inside is tried beyond the nearest back, at the distance of the padding from it; one that
+// is near is tried further away along the normal of the nearest surface. A few such steps are made,
+// as long as they stay within half the spacing of the node along each axis. If no place is valid,
+// the node has its own place and state.
+//
+// State `dark` is not found here: see markDark() in probe_light.h. Deterministic.
+Probe placedProbe(const RenderScene& scene, const RayCaster& rays, const ProbeGrid& grid,
+                  const glm::ivec3& node, float padding);
+
+// All nodes in parallel. The result does not depend on the number of threads.
+ProbeGrid placeProbes(const RenderScene& scene, const RayCaster& rays,
+                      const ProbeGridOptions& options);
+
+}  // namespace lamplighter

@@ -1,0 +1,84 @@
+// Incident light at probes, as spherical harmonics.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "renderer/methods/path_tracer/path_tracer.h"
+#include "renderer/probes/probe_grid.h"
+
+namespace lamplighter {
+
+inline constexpr size_t kProbeCoefficients = 9;
+
+// Coefficients of the incident radiance L(ω) [W/(m² sr)] at a point, linear Rec. 709:
+// c(l, m) = ∫ L(ω) Y(l, m)(ω) dω, with ω the direction to where the light comes from, in world
+// space (right-handed, Y up). Real spherical harmonics of order 3 (bands 0 to 2), orthonormal,
+// without the Condon-Shortley phase, at index l(l + 1) + m as in
+// renderer/prt/spherical_harmonics.h:
+//   1/2 √(1/π),  1/2 √(3/π) {y, z, x},
+//   1/2 √(15/π) {x y, y z},  1/4 √(5/π) (3 z² − 1),  1/2 √(15/π) x z,  1/4 √(15/π) (x² − y²).
+using ProbeSh = std::array<vec3, kProbeCoefficients>;
+
+// The nine functions of a unit vector.
+std::array<float, kProbeCoefficients> probeBasis(const vec3& direction);
+// Adds light [W/m²: radiance times solid angle] from a unit direction.
+void addLight(ProbeSh& sh, const vec3& towards, const vec3& light);
+// Irradiance [W/m²] on a surface with this unit normal: convolution with the cosine lobe, which
+// multiplies the bands by π, 2π/3 and π/4 (Ramamoorthi and Hanrahan 2001). A single small light
+// exceeds its cosine by up to 6% of its irradiance on a surface that faces it, and may give
+// negative values to surfaces that face away: users clamp them to 0.
+vec3 irradianceFrom(const ProbeSh& sh, const vec3& normal);
+
+// Fills in the coefficients of places [unit of the scene]; both spans have the same size. So other
+// sources of light than the reference can serve probes.
+using ProbeSource = std::function<void(std::span<const vec3> places, std::span<ProbeSh> out)>;
+
+struct ProbeLightOptions {
+  PathTracerOptions paths;  // bounces and seed
+  int samples = 1024;       // paths a probe; powers of two are stratified best
+};
+
+// Light at points of space by the path tracer. Punctual lights (points, spots, suns) are exact: one
+// ray each. Emissive surfaces and the sky are sampled as lights as well as by directions.
+class ProbeReference {
+ public:
+  // Refers to scene and rays.
+  ProbeReference(const RenderScene& scene, const RayCaster& rays, const PathTracerOptions& paths);
+
+  // Adds the samples first … first + count − 1 of a probe to their sum.
+  void addSamples(const vec3& position, uint32_t key, uint32_t first, uint32_t count,
+                  ProbeSh& sum) const;
+  // Of punctual lights alone.
+  ProbeSh punctualLight(const vec3& position) const;
+  // All of it, by so many samples. `key`: chooses the random numbers (Probe::key).
+  ProbeSh light(const vec3& position, uint32_t key, uint32_t samples) const;
+
+ private:
+  const RenderScene& scene_;
+  const RayCaster& rays_;
+  PathTracerOptions paths_;
+  LightSet lights_;
+};
+
+// Light of the valid probes of a grid by the reference; that of others is 0. `progress` is called
+// after each batch of probes, with the number of valid probes that are done and of all; returning
+// false stops, and the result is empty. The result does not depend on the number of threads.
+using ProbeProgress = std::function<bool(int done, int all)>;
+std::vector<ProbeSh> probeLight(const RenderScene& scene, const RayCaster& rays,
+                                const ProbeGrid& grid, const ProbeLightOptions& options,
+                                const ProbeProgress& progress);
+
+// In a level without sky and sun, valid probes from which more than half of the rays meet nothing
+// (Probe::open) and where no light arrives become dark: they are beside the level, such as around a
+// closed house, and would darken what is interpolated near its walls.
+void markDark(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid);
+
+// Gives each probe that is not valid the mean of those of its up to six neighbours that have light,
+// ring by ring, so that trilinear interpolation does not darken near walls. Without valid probes
+// all is 0.
+void fillInvalid(const ProbeGrid& grid, std::span<ProbeSh> light);
+
+}  // namespace lamplighter
