@@ -1,4 +1,5 @@
-// Bakes light maps or vertex colours from the command line, on one machine or on several.
+// Bakes light maps, vertex colours or light probes from the command line, on one machine or on
+// several.
 #include <charconv>
 #include <functional>
 #include <iostream>
@@ -6,6 +7,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/bake/bake_job.h"
+#include "editor/bake/probe_job.h"
 #include "editor/bake/vertex_colour_job.h"
 #include "editor/cli/options.h"
 #include "editor/cli/progress_line.h"
@@ -14,6 +16,7 @@
 #include "renderer/base/threads.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/methods/path_tracer/parameters.h"
+#include "renderer/probes/probe_file.h"
 #include "renderer/registry/registry.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
@@ -73,6 +76,8 @@ BakeLightOptions lightOf(const std::string& method, Settings settings) {
   }
   // Those of the other methods have the same names.
   const ManyLightsParameters parameters = manyLightsParameters().read(settings);
+  light.paths.bounces = parameters.bounces;  // of probes
+  light.paths.seed = static_cast<uint32_t>(parameters.seed);
   light.counts.total = parameters.vpls;
   light.counts.directShare = parameters.directShare;
   light.counts.bounces = parameters.bounces;
@@ -163,6 +168,24 @@ int bakeLightMaps(const BakeJobOptions& job, const Scene& scene, const Frontend&
   return 0;
 }
 
+int bakeLightProbes(const ProbeJobOptions& job, const Scene& scene, const Frontend& frontend) {
+  ShownProgress progress(frontend, "probes");
+  const std::optional<ProbeReport> report = bakeProbes(scene, job, std::ref(progress));
+  progress.hide();
+  if (!report) {
+    std::cerr << "bake: stopped; no probes were written\n";
+    return kCancelled;
+  }
+  for (const std::string& w : report->warnings) std::cerr << "warning: " << w << '\n';
+  std::string counts;
+  for (size_t i = 0; i < report->counts.size(); ++i)
+    counts += fmt::format("{}{} {}", i == 0 ? "" : ", ", report->counts[i],
+                          nameOf(static_cast<ProbeState>(i)));
+  std::cout << fmt::format("probes {:.4g} m apart: {}\n", report->spacing, counts);
+  for (const auto& file : report->files) std::cout << file.string() << '\n';
+  return 0;
+}
+
 // Throws InputError if the folder cannot get these files.
 void requireFolder(const std::filesystem::path& folder, const std::vector<std::string>& files) {
   std::error_code error;
@@ -188,6 +211,8 @@ int bake(const BakeOptions& o, const Frontend& frontend) {
   maps.name = std::filesystem::path(o.scene).stem().string();
   VertexColourOptions colours{maps.light, o.vertices, std::nullopt, maps.output, maps.name};
   if (o.exposure != "auto") colours.exposure = exposureOf(o.exposure, Image());
+  const ProbeJobOptions probes{
+      o.probeGrid, {maps.light.paths, o.probeSamples}, maps.output, maps.name};
   std::error_code ignored;
   if (std::filesystem::equivalent(std::filesystem::path(o.scene).parent_path() / ".",
                                   maps.output / ".", ignored))
@@ -197,9 +222,15 @@ int bake(const BakeOptions& o, const Frontend& frontend) {
   const ThreadLimit limit(o.threads);
   LoadedScene loaded = loadGltf(o.scene);
   if (o.vertexColours) requireFolder(maps.output, {maps.name + ".gltf", maps.name + "-light.json"});
+  if (o.probes) requireFolder(maps.output, probeFileNames(maps.name));
   for (const std::string& w : loaded.warnings) std::cerr << "warning: " << w << '\n';
-  return o.vertexColours ? bakeVertexColours(colours, loaded.scene, frontend)
-                         : bakeLightMaps(maps, loaded.scene, frontend);
+  int code = 0;
+  if (o.vertexColours)
+    code = bakeVertexColours(colours, loaded.scene, frontend);
+  else if (!o.noMaps)
+    code = bakeLightMaps(maps, loaded.scene, frontend);
+  if (o.probes && code == 0) code = bakeLightProbes(probes, loaded.scene, frontend);
+  return code;
 }
 
 }  // namespace lamplighter::cli

@@ -1,6 +1,7 @@
 #include "editor/cli/flags.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <regex>
@@ -16,6 +17,17 @@
 namespace lamplighter::cli {
 
 namespace {
+
+// A number in a range. CLI::Range alone takes "nan" for one.
+CLI::Validator within(double low, double high) {
+  const CLI::Range range(low, high);
+  return {[range](std::string& text) {
+            double value = 0.0;
+            const bool isNumber = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
+            return isNumber ? range(text) : "Value " + text + " is not a number";
+          },
+          range.get_description()};
+}
 
 void addBackend(CLI::App& app, std::string& backend) {
   app.add_option("--backend", backend, "gl, cpu or auto")
@@ -89,10 +101,10 @@ void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->type_name(kSkyUsage);
   sub.add_option("--sky-rotation", o->skyRotation, "Turns the sky's picture about the vertical")
       ->type_name("DEGREES")
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(within(-1e6, 1e6));
   sub.add_option("--sky-scale", o->skyScale, "Multiplies the sky's picture")
       ->type_name("FACTOR")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(within(0.0, 1e9));
   sub.add_option("--exposure", o->exposure, "EV for PNG, or auto")
       ->type_name("EV")
       ->capture_default_str();
@@ -200,6 +212,40 @@ void scriptFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.callback([=, &run, &frontend] { run = [=, &frontend] { return script(*o, frontend); }; });
 }
 
+void probeFlags(CLI::App& sub, BakeOptions& o) {
+  CLI::Option* probes =
+      sub.add_flag("--probes", o.probes,
+                   "Also write light probes for what moves, found by the reference with the "
+                   "bounces and the seed of the method")
+          ->excludes("--shard");
+  CLI::Option* noMaps =
+      sub.add_flag("--no-maps", o.noMaps, "Write light probes alone")->needs(probes);
+  for (const char* ofMaps :
+       {"--density", "--page", "--merge", "--keep-parts", "--visibility", "--vertex-colours"})
+    noMaps->excludes(ofMaps);
+  sub.add_option("--probe-spacing", o.probeGrid.spacing, "Between neighbouring probes (m)")
+      ->type_name("X")
+      ->check(within(0.01, 10000.0))
+      ->needs(probes)
+      ->capture_default_str();
+  sub.add_option("--probe-padding", o.probeGrid.padding, "Least distance of probes to surfaces (m)")
+      ->type_name("X")
+      ->check(within(0.0, 1000.0))
+      ->needs(probes)
+      ->capture_default_str();
+  sub.add_option("--most-probes", o.probeGrid.most,
+                 "Probes are further apart where there would be more nodes of their grid")
+      ->type_name("N")
+      ->check(CLI::Range(8, 1048576))
+      ->needs(probes)
+      ->capture_default_str();
+  sub.add_option("--probe-spp", o.probeSamples, "Paths a probe")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1048576))
+      ->needs(probes)
+      ->capture_default_str();
+}
+
 void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   auto o = std::make_shared<BakeOptions>();
   sub.add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
@@ -214,7 +260,7 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->capture_default_str();
   sub.add_option("--density", o->atlas.texelsPerMetre, "Texels a metre")
       ->type_name("X")
-      ->check(CLI::Range(0.01, 10000.0))
+      ->check(within(0.01, 10000.0))
       ->capture_default_str();
   sub.add_option("--page", o->atlas.pageSize, "Texels along a side of a page")
       ->type_name("N")
@@ -242,12 +288,12 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
                  "Edges are divided where interpolated vertex colours are off by more than this "
                  "share")
       ->type_name("X")
-      ->check(CLI::Range(0.001, 10.0))
+      ->check(within(0.001, 10.0))
       ->needs(colours)
       ->capture_default_str();
   sub.add_option("--shortest-edge", o->vertices.shortestEdge, "Shorter edges are not made (m)")
       ->type_name("X")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(within(0.001, 1000.0))
       ->needs(colours)
       ->capture_default_str();
   sub.add_option("--exposure", o->exposure,
@@ -256,6 +302,7 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->type_name("EV|auto")
       ->needs(colours)
       ->capture_default_str();
+  probeFlags(sub, *o);
   addThreads(sub, o->threads);
   sub.footer(
       "Ctrl+C stops; the same command goes on from there.\n"

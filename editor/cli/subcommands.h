@@ -9,6 +9,7 @@
 #include "editor/cli/options.h"
 #include "renderer/bake/atlas.h"
 #include "renderer/bake/vertex_light.h"
+#include "renderer/probes/probe_grid.h"
 
 namespace lamplighter::cli {
 
@@ -89,6 +90,9 @@ struct BakeOptions : MethodFlags {
   bool vertexColours = false;
   VertexLightOptions vertices;    // of vertex colours
   std::string exposure = "auto";  // EV or "auto"; of vertex colours
+  bool probes = false, noMaps = false;
+  ProbeGridOptions probeGrid;
+  int probeSamples = 1024;  // paths a probe
   int threads = 0;
 };
 int bake(const BakeOptions& options, const Frontend& frontend);

@@ -128,6 +128,7 @@ TEST_F(BakeCommand, RefusesInvalidOptionsInOneLine) {
         {"--shard", "3/2"},
         {"--shard", "two"},
         {"--density", "0"},
+        {"--density", "nan"},
         {"--page", "7"},
         {"--method", "magic"},
         {"--method", "surface_shadow_maps", "--set", "mask=3"},
