@@ -35,6 +35,24 @@ void addViewActions(ActionRegistry& r) {
          "Occlusion.",
          "V", [](Session& s, const Arguments&) { s.display().showVpls(!s.display().showsVpls()); },
          nullptr, true, [](const Session& s) { return s.display().showsVpls(); }});
+  r.add({"view.probes", "Light probes", "",
+         "Shows light probes as balls with the light that falls on them, as lamplighter bake "
+         "--probes writes it, and one at the pointer with the light between probes.",
+         "", [](Session& s, const Arguments&) { s.probes().setOn(!s.probes().on()); }, nullptr,
+         true, [](const Session& s) { return s.probes().on(); }});
+  r.add({"view.probe_grid", "Grid of light probes", "SPACING [PADDING]",
+         "Sets how far apart light probes are, and their least distance to surfaces (m).", "",
+         [](Session& s, const Arguments& a) {
+           ProbeGridOptions grid = s.probes().options();
+           grid.spacing = numberOf(a[0]);
+           if (a.size() > 1) grid.padding = numberOf(a[1]);
+           if (!(grid.spacing >= 0.01f && grid.spacing <= 1e4f && grid.padding >= 0.0f &&
+                 grid.padding <= 1e3f))
+             throw InputError("view.probe_grid", "there are no such probes",
+                              "give a spacing from 0.01 to 10000 and a padding from 0 to 1000");
+           s.probes().setOptions(grid);
+         },
+         nullptr, true});
   r.add({"view.choose_vpl", "Choose light sample", "INDEX",
          "Chooses the light sample of the view Occlusion, by its index from 0.", "",
          [](Session& s, const Arguments& a) {

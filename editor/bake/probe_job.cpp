@@ -29,7 +29,9 @@ std::optional<ProbeReport> bakeProbes(const Scene& scene, const ProbeJobOptions&
         "probes are {:.3g} m apart instead of {:.3g} m: there would be more than {} of them",
         report.spacing, render.unit * o.grid.spacing, o.grid.most));
   const size_t placed = grid.count(ProbeState::valid);
-  std::vector<ProbeSh> light = probeLight(render, *world.rays(), grid, o.light, progress);
+  const ProbeReference reference(render, *world.rays(), o.paths);
+  std::vector<ProbeSh> light =
+      probeLight(grid, reference.source(static_cast<uint32_t>(o.samples)), progress);
   if (light.empty()) return std::nullopt;
   markDark(render, light, grid);
   fillInvalid(grid, light);
@@ -41,7 +43,8 @@ std::optional<ProbeReport> bakeProbes(const Scene& scene, const ProbeJobOptions&
                                   : "no light arrives at any probe");
 
   const std::vector<std::string> names = probeFileNames(o.name);
-  const std::string text = probeText(grid, light, {names[1], render.unit, o.grid.padding, o.light});
+  const std::string text =
+      probeText(grid, light, {names[1], render.unit, o.grid.padding, o.samples, o.paths.bounces});
   PendingFile table(o.output / names[0],
                     {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
   PendingFile volume(o.output / names[1], probeVolume(grid, light));

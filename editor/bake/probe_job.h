@@ -14,7 +14,8 @@ namespace lamplighter {
 
 struct ProbeJobOptions {
   ProbeGridOptions grid;
-  ProbeLightOptions light;
+  PathTracerOptions paths;       // bounces and seed
+  int samples = 1024;            // paths a probe
   std::filesystem::path output;  // folder; created if it does not exist
   std::string name;              // prefix of the names of all files
 };

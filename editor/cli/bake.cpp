@@ -211,8 +211,8 @@ int bake(const BakeOptions& o, const Frontend& frontend) {
   maps.name = std::filesystem::path(o.scene).stem().string();
   VertexColourOptions colours{maps.light, o.vertices, std::nullopt, maps.output, maps.name};
   if (o.exposure != "auto") colours.exposure = exposureOf(o.exposure, Image());
-  const ProbeJobOptions probes{
-      o.probeGrid, {maps.light.paths, o.probeSamples}, maps.output, maps.name};
+  const ProbeJobOptions probes{o.probeGrid, maps.light.paths, o.probeSamples, maps.output,
+                               maps.name};
   std::error_code ignored;
   if (std::filesystem::equivalent(std::filesystem::path(o.scene).parent_path() / ".",
                                   maps.output / ".", ignored))

@@ -45,6 +45,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   savedHash_ = hash;
   tools_->pointerKnown = false;
   points_.forget();
+  probes_.forget();
   disk_ = std::move(files);
   view_ = view;
   tools_->camera.reset(hit ? unit * hit.t : std::max(bounds.radius(), 0.1f * unit), unit);
@@ -225,6 +226,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     display_.update(*renderer_, *output_.radiance, view_, document_.render, !same);
     points_.update(pointSubject(), !same, !changes.none());
     watchFrame(changes, begin);
+    updateProbes(changes, updates.has_value());
     failures_.rendered();
   } catch (const std::exception& e) {
     frameFailed(e, input);

@@ -20,6 +20,7 @@
 #include "editor/keys/action.h"
 #include "editor/lights/work_light.h"
 #include "editor/notices/notices.h"
+#include "editor/probes/live_probes.h"
 #include "editor/recovery/crash_recovery.h"
 #include "editor/session/frame_failures.h"
 #include "editor/session/frame_watch.h"
@@ -136,6 +137,8 @@ class Session {
   Bounds bounds() const;                                     // of the level [m]
   uint64_t sceneRevision() const { return sceneRevision_; }  // increases with each change of it
   LightingState& lighting() { return lighting_; }
+  LiveProbes& probes() { return probes_; }
+  const LiveProbes& probes() const { return probes_; }
   const LightingState& lighting() const { return lighting_; }
 
   // The tools that inspect a clicked point, and their input.
@@ -225,6 +228,7 @@ class Session {
   uint64_t sceneRevision_ = 0;
   SceneChanges unshown_;  // of skipped frames
   LightingState lighting_;
+  LiveProbes probes_;
   WorkLight workLight_;
   uint64_t savedHash_ = 0;
   std::vector<FileStamp> disk_;  // the level's files when they were opened or saved
@@ -239,8 +243,10 @@ class Session {
   void editNode(NodeId id, const std::string& verb, Change change);
   void takeWritten(const std::filesystem::path& path,
                    const std::vector<std::filesystem::path>& written, bool keepsOthers);
+  std::optional<vec3> probeProp() const;
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
   const Scene& litScene(SceneChanges& changes);
+  void updateProbes(const SceneChanges& changes, bool isTimed);
   void watchFrame(const SceneChanges& changes, double begin);
   void tell(const std::exception_ptr& failure);
   void frameFailed(const std::exception& e, const FrameFailures::Input& input);

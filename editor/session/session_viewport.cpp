@@ -4,6 +4,7 @@
 #include "editor/debug_views/vpl_overlay.h"
 #include "editor/edits/placement.h"
 #include "editor/edits/tree.h"
+#include "editor/probes/probe_overlay.h"
 #include "editor/session/click_to_place.h"
 #include "editor/session/session_tools.h"
 #include "editor/tools/picker.h"
@@ -156,6 +157,13 @@ std::optional<vec2> Session::pointer() const {
   return tools_->pointerKnown ? std::optional(tools_->pointer) : std::nullopt;
 }
 
+// In the unit of the scene, as far from the surface under the pointer as its own radius and a half.
+std::optional<vec3> Session::probeProp() const {
+  const auto place = surfaceUnderPointer({});
+  if (!place) return std::nullopt;
+  return place->position / unit() + 1.5f * propRadius(probes_) * place->normal;
+}
+
 Overlay Session::overlay() const {
   Overlay overlay;
   drawScene(overlay, view_, document_, renderer_->scene());
@@ -164,6 +172,9 @@ Overlay Session::overlay() const {
     drawVpls(overlay, inUnits(view_, unit()), inspection, *renderer_->rays(),
              display_.chosen(inspection));
   }
+  if (probes_.on() && renderer_->rays() != nullptr)
+    drawProbes(overlay, inUnits(view_, unit()), probes_, renderScene(), *renderer_->rays(),
+               {document_.render.exposureEv, display_.toneMapper()}, probeProp());
   tools_->lightHandles.draw(overlay, view_, document_);
   if (points_.tool() == PointTool::none) tools_->gizmo.draw(overlay, view_, document_);
   points_.draw(overlay, pointSubject());

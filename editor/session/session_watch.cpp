@@ -5,6 +5,14 @@
 
 namespace lamplighter {
 
+// In the window the work follows the time that it takes; without a clock it is the same in each
+// frame.
+void Session::updateProbes(const SceneChanges& changes, bool isTimed) {
+  const double begin = clock_ ? clock_() : 0.0;
+  probes_.update(renderScene(), *renderer_->rays(), changes);
+  if (clock_ && isTimed) probes_.took(clock_() - begin);
+}
+
 // The time of the second picture is not part of the frame.
 void Session::watchFrame(const SceneChanges& changes, double begin) {
   const double end = clock_ ? clock_() : 0.0;

@@ -2,6 +2,7 @@
 // viewport pixels, y down.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,17 @@ struct OverlayText {
   bool boxed = false;  // on a dark background, readable over any picture
 };
 
+// Triangles with colours that are interpolated between their corners.
+struct OverlayMesh {
+  std::vector<vec2> points;
+  std::vector<vec4> colours;        // by point; sRGB, straight alpha
+  std::vector<uint32_t> triangles;  // three points each
+};
+
 struct Overlay {
   std::vector<OverlayShape> shapes;  // in drawing order
   std::vector<OverlayText> texts;
+  std::vector<OverlayMesh> meshes;  // in drawing order, below the shapes
 };
 
 }  // namespace lamplighter

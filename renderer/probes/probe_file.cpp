@@ -79,7 +79,7 @@ std::string probeText(const ProbeGrid& grid, std::span<const ProbeSh> light,
       },
       kProbeCoefficients);
   out += fmt::format(",\n  \"method\": \"reference\",\n  \"samples\": {},\n  \"bounces\": {},\n",
-                     notes.light.samples, notes.light.paths.bounces);
+                     notes.samples, notes.bounces);
   out += "  \"origin\": ";
   append(out, notes.unit * grid.placeOf(glm::ivec3(0)));
   out += fmt::format(",\n  \"spacing\": {},\n  \"padding\": {},\n  \"size\": [{}, {}, {}],\n",

@@ -15,7 +15,8 @@ struct ProbeFileNotes {
   std::string volume;    // name of the file with the volume
   float unit = 1.0f;     // of the grid's lengths [m]: RenderScene::unit
   float padding = 0.0f;  // unit of the scene
-  ProbeLightOptions light;
+  int samples = 0;       // paths a probe
+  int bounces = 0;
 };
 
 // JSON. `light`: of all probes of the grid, those that are not valid filled in (fillInvalid).

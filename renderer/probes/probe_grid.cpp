@@ -6,7 +6,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/random.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -26,7 +25,6 @@ constexpr float kSamePlace = 1e-4f;
 constexpr float kGrowth = 1.1f;  // of the spacing, until the bound is kept
 // Multiples of the spacing beyond this are not exact in a float.
 constexpr float kFurthestNode = 1e6f;
-constexpr uint32_t kKeySet = 0x9b;
 
 // Directions spread evenly over the sphere (a Fibonacci lattice).
 std::array<vec3, kRays> evenDirections() {
@@ -112,10 +110,7 @@ class Surveyor {
 Probe placed(const Surveyor& surveyor, const ProbeGrid& grid, const glm::ivec3& node,
              float padding) {
   const vec3 home = grid.placeOf(node);
-  const glm::ivec3 inWorld = grid.first + node;
-  Probe probe{home, ProbeState::outside, 1.0f,
-              hash4(static_cast<uint32_t>(inWorld.x), static_cast<uint32_t>(inWorld.y),
-                    static_cast<uint32_t>(inWorld.z), kKeySet)};
+  Probe probe{home, ProbeState::outside, 1.0f};
   const float reach = kReach * grid.spacing;
   // A little more, so that rounding does not undo it.
   const float wanted = 1.01f * kMargin * padding;
@@ -124,7 +119,7 @@ Probe placed(const Surveyor& surveyor, const ProbeGrid& grid, const glm::ivec3& 
     const Surroundings found = surveyor.around(place);
     const ProbeState state = found.state(padding);
     if (step == 0) probe.state = state, probe.open = found.open();
-    if (state == ProbeState::valid) return {place, state, found.open(), probe.key};
+    if (state == ProbeState::valid) return {place, state, found.open()};
     if (state == ProbeState::outside) break;
     if (state == ProbeState::inside) {
       if (found.backs == 0) break;

@@ -30,7 +30,6 @@ struct Probe {
   vec3 position{0.0f};  // world space; moved from its node by at most half the spacing on each axis
   ProbeState state = ProbeState::outside;
   float open = 1.0f;  // share of the rays from there that meet nothing
-  uint32_t key = 0;   // a function of the node's place in the world, for random numbers
   bool isValid() const { return state == ProbeState::valid; }
 };
 

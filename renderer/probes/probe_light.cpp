@@ -1,14 +1,17 @@
 #include "renderer/probes/probe_light.h"
 
 #include <algorithm>
+#include <bit>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/random.h"
 #include "renderer/prt/spherical_harmonics.h"
 
 namespace lamplighter {
 namespace {
 
+constexpr uint32_t kKeySet = 0x9b;
 constexpr size_t kBatch = 64;  // probes between two calls of progress
 constexpr float kOpenShare = 0.5f;
 
@@ -71,50 +74,58 @@ vec3 irradianceFrom(const ProbeSh& sh, const vec3& normal) {
 }
 
 ProbeReference::ProbeReference(const RenderScene& scene, const RayCaster& rays,
-                               const PathTracerOptions& paths)
-    : scene_(scene), rays_(rays), paths_(paths), lights_(scene) {}
+                               const PathTracerOptions& paths, const LightSet& before)
+    : scene_(scene), rays_(rays), paths_(paths), lights_(scene, before) {}
 
-void ProbeReference::addSamples(const vec3& position, uint32_t key, uint32_t first, uint32_t count,
+void ProbeReference::addSamples(const vec3& place, uint32_t first, uint32_t count,
                                 ProbeSh& sum) const {
+  const uint32_t key = hash4(std::bit_cast<uint32_t>(place.x), std::bit_cast<uint32_t>(place.y),
+                             std::bit_cast<uint32_t>(place.z), kKeySet);
   for (uint32_t i = first; i < first + count; ++i)
-    for (const ArrivingLight& a :
-         traceArrivingLight(scene_, rays_, lights_, position, key, i, paths_))
+    for (const ArrivingLight& a : traceArrivingLight(scene_, rays_, lights_, place, key, i, paths_))
       if (a.light != vec3(0.0f)) addLight(sum, a.towards, a.light);
 }
 
-ProbeSh ProbeReference::punctualLight(const vec3& position) const {
+ProbeSh ProbeReference::punctualLight(const vec3& place) const {
   ProbeSh sum{};
   for (const RenderPunctual& light : scene_.punctuals) {
-    const ArrivingLight a = arrivingPunctual(scene_, rays_, lights_, position, light);
+    const ArrivingLight a = arrivingPunctual(scene_, rays_, lights_, place, light);
     if (a.light != vec3(0.0f)) addLight(sum, a.towards, a.light);
   }
   return sum;
 }
 
-ProbeSh ProbeReference::light(const vec3& position, uint32_t key, uint32_t samples) const {
+ProbeSh ProbeReference::light(const vec3& place, uint32_t samples) const {
   ProbeSh sum{};
-  addSamples(position, key, 0, samples, sum);
-  ProbeSh out = punctualLight(position);
+  addSamples(place, 0, samples, sum);
+  ProbeSh out = punctualLight(place);
   for (size_t i = 0; i < kProbeCoefficients; ++i)
     out[i] += sum[i] / static_cast<float>(std::max(samples, 1u));
   return out;
 }
 
-std::vector<ProbeSh> probeLight(const RenderScene& scene, const RayCaster& rays,
-                                const ProbeGrid& grid, const ProbeLightOptions& options,
+ProbeSource ProbeReference::source(uint32_t samples) const {
+  return [this, samples](std::span<const vec3> places, std::span<ProbeSh> out) {
+    tbb::parallel_for(size_t{0}, places.size(),
+                      [&](size_t i) { out[i] = light(places[i], samples); });
+  };
+}
+
+std::vector<ProbeSh> probeLight(const ProbeGrid& grid, const ProbeSource& source,
                                 const ProbeProgress& progress) {
-  const ProbeReference reference(scene, rays, options.paths);
   std::vector<ProbeSh> light(grid.probes.size());
   std::vector<size_t> valid;
-  for (size_t i = 0; i < grid.probes.size(); ++i)
-    if (grid.probes[i].isValid()) valid.push_back(i);
+  std::vector<vec3> places;
+  for (size_t i = 0; i < grid.probes.size(); ++i) {
+    if (!grid.probes[i].isValid()) continue;
+    valid.push_back(i);
+    places.push_back(grid.probes[i].position);
+  }
   for (size_t first = 0; first < valid.size(); first += kBatch) {
-    const size_t end = std::min(first + kBatch, valid.size());
-    tbb::parallel_for(first, end, [&](size_t i) {
-      const Probe& probe = grid.probes[valid[i]];
-      light[valid[i]] =
-          reference.light(probe.position, probe.key, static_cast<uint32_t>(options.samples));
-    });
+    const size_t count = std::min(kBatch, valid.size() - first), end = first + count;
+    std::array<ProbeSh, kBatch> batch;
+    source(std::span(places).subspan(first, count), std::span(batch).first(count));
+    for (size_t i = 0; i < count; ++i) light[valid[first + i]] = batch[i];
     if (progress && !progress(static_cast<int>(end), static_cast<int>(valid.size())) &&
         end < valid.size())
       return {};
@@ -129,6 +140,30 @@ void markDark(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGri
     if (probe.isValid() && probe.open > kOpenShare && isZero(light[i]))
       probe.state = ProbeState::dark;
   }
+}
+
+std::optional<ProbeSh> interpolatedLight(const ProbeGrid& grid, std::span<const ProbeSh> light,
+                                         const vec3& place) {
+  if (grid.probes.empty()) return std::nullopt;
+  const vec3 last = vec3(grid.size - 1);
+  const vec3 in = glm::clamp(place / grid.spacing - vec3(grid.first), vec3(0.0f), last);
+  const glm::ivec3 low = glm::ivec3(in);
+  const vec3 f = in - vec3(low);
+  ProbeSh sum{};
+  float weights = 0.0f;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::ivec3 node = glm::min(low + step, grid.size - 1);
+    const vec3 w = glm::mix(1.0f - f, f, vec3(step));
+    const float weight = w.x * w.y * w.z;
+    const size_t i = grid.indexOf(node);
+    if (weight <= 0.0f || !grid.probes[i].isValid()) continue;
+    for (size_t c = 0; c < kProbeCoefficients; ++c) sum[c] += weight * light[i][c];
+    weights += weight;
+  }
+  if (weights <= 0.0f) return std::nullopt;
+  for (vec3& c : sum) c /= weights;
+  return sum;
 }
 
 void fillInvalid(const ProbeGrid& grid, std::span<ProbeSh> light) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,25 +37,25 @@ vec3 irradianceFrom(const ProbeSh& sh, const vec3& normal);
 // sources of light than the reference can serve probes.
 using ProbeSource = std::function<void(std::span<const vec3> places, std::span<ProbeSh> out)>;
 
-struct ProbeLightOptions {
-  PathTracerOptions paths;  // bounces and seed
-  int samples = 1024;       // paths a probe; powers of two are stratified best
-};
-
 // Light at points of space by the path tracer. Punctual lights (points, spots, suns) are exact: one
-// ray each. Emissive surfaces and the sky are sampled as lights as well as by directions.
+// ray each. Emissive surfaces and the sky are sampled as lights as well as by directions. Random
+// numbers depend on the place, the number of the sample and the seed. Several threads may call it.
 class ProbeReference {
  public:
-  // Refers to scene and rays.
-  ProbeReference(const RenderScene& scene, const RayCaster& rays, const PathTracerOptions& paths);
+  // Refers to scene and rays. Of the options it uses bounces and seed. `before`: the lights of an
+  // earlier state of the scene, from which those that did not change are taken.
+  ProbeReference(const RenderScene& scene, const RayCaster& rays, const PathTracerOptions& paths,
+                 const LightSet& before = {});
 
-  // Adds the samples first … first + count − 1 of a probe to their sum.
-  void addSamples(const vec3& position, uint32_t key, uint32_t first, uint32_t count,
-                  ProbeSh& sum) const;
+  // Adds the samples first … first + count − 1 of a place to their sum.
+  void addSamples(const vec3& place, uint32_t first, uint32_t count, ProbeSh& sum) const;
   // Of punctual lights alone.
-  ProbeSh punctualLight(const vec3& position) const;
-  // All of it, by so many samples. `key`: chooses the random numbers (Probe::key).
-  ProbeSh light(const vec3& position, uint32_t key, uint32_t samples) const;
+  ProbeSh punctualLight(const vec3& place) const;
+  // All of it, by so many samples; powers of two are stratified best.
+  ProbeSh light(const vec3& place, uint32_t samples) const;
+  // Of many places in parallel. Refers to this object.
+  ProbeSource source(uint32_t samples) const;
+  const LightSet& lights() const { return lights_; }
 
  private:
   const RenderScene& scene_;
@@ -63,18 +64,23 @@ class ProbeReference {
   LightSet lights_;
 };
 
-// Light of the valid probes of a grid by the reference; that of others is 0. `progress` is called
-// after each batch of probes, with the number of valid probes that are done and of all; returning
-// false stops, and the result is empty. The result does not depend on the number of threads.
+// Light of the valid probes of a grid; that of others is 0. `progress` is called after each batch
+// of probes, with the number of valid probes that are done and of all; returning false stops, and
+// the result is empty. With the reference the result does not depend on the number of threads.
 using ProbeProgress = std::function<bool(int done, int all)>;
-std::vector<ProbeSh> probeLight(const RenderScene& scene, const RayCaster& rays,
-                                const ProbeGrid& grid, const ProbeLightOptions& options,
+std::vector<ProbeSh> probeLight(const ProbeGrid& grid, const ProbeSource& source,
                                 const ProbeProgress& progress);
 
 // In a level without sky and sun, valid probes from which more than half of the rays meet nothing
 // (Probe::open) and where no light arrives become dark: they are beside the level, such as around a
 // closed house, and would darken what is interpolated near its walls.
 void markDark(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid);
+
+// The light at a place by trilinear interpolation between the eight nodes around it (the nearest
+// ones outside of the grid), of valid probes alone: the weights of others are shared out. None if
+// no valid one is there. `light`: of all probes.
+std::optional<ProbeSh> interpolatedLight(const ProbeGrid& grid, std::span<const ProbeSh> light,
+                                         const vec3& place);
 
 // Gives each probe that is not valid the mean of those of its up to six neighbours that have light,
 // ring by ring, so that trilinear interpolation does not darken near walls. Without valid probes

@@ -440,7 +440,8 @@ bool Application::idle() const {
   // A few more frames for delayed reactions: hover colours, layouts, popups.
   constexpr int kAfterglow = 4;
   return quietFrames_ > kAfterglow && !toastState_.any() && !thumbnails_.busy() && input_.empty() &&
-         session_->output().settled && session_->output().refined && !loader_.running();
+         session_->output().settled && session_->output().refined && session_->probes().settled() &&
+         !loader_.running();
 }
 
 }  // namespace lamplighter

@@ -144,7 +144,8 @@ void Replay::run(Platform& platform, const MakeRenderer& makeRenderer, bool repo
                        failureText(e));
     }
     if (!app.session().renderError().empty()) throw InputError(app.session().renderError());
-    const bool settled = app.session().output().settled && app.quietFrames() >= kQuietFrames;
+    const bool settled = app.session().output().settled && app.session().probes().settled() &&
+                         app.quietFrames() >= kQuietFrames;
     for (const Checkpoint& checkpoint : player_.endFrame(settled)) check(app, platform, checkpoint);
   }
   if (options_.updateBaselines) writeRecording(updated_);

@@ -32,7 +32,8 @@ std::vector<std::string> viewActions() {
   addViews(true);
   add({"view.choose_light", "view.choose_vpl", "<", "-"});
   add({"view.false_colour_unit", "view.false_colour_range", "-"});
-  add({"view.vpls", "view.probe", "view.histogram", "view.tone_mapper", "-", "split.on"});
+  add({"view.vpls", "view.probes", "view.probe_grid", "view.probe", "view.histogram"});
+  add({"view.tone_mapper", "-", "split.on"});
   add({kSplitMenu, "split.show", "split.toggle", "split.heat", "split.heat_scale"});
   add({"split.position", "split.off", "<", "-"});
   add({">Camera", "view.frame_all", "view.frame_selection", "-", "camera.go"});

@@ -141,6 +141,9 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
       display.vplText(ui.session.document().scene, ui.session.inspect(), ui.session.unit());
   if (!vpl.empty()) parts.push_back({"vpl", vpl, theme::kText, "The chosen light sample."});
 
+  if (const std::string probes = ui.session.probes().text(ui.session.unit()); !probes.empty())
+    parts.push_back({"probes", probes, theme::kText,
+                     "Light probes that are valid, and how far their light is found."});
   if (const auto& reading = ui.session.points().reading();
       reading && ui.session.points().probesPointer())
     parts.push_back(

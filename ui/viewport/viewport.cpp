@@ -34,6 +34,18 @@ void drawShapes(ImDrawList& list, const Overlay& overlay, vec2 origin, float sca
   for (const OverlayShape& shape : overlay.shapes) drawShape(list, shape, origin, scale);
 }
 
+void drawMeshes(ImDrawList& list, const Overlay& overlay, vec2 origin) {
+  const ImVec2 white = ImGui::GetFontTexUvWhitePixel();
+  for (const OverlayMesh& mesh : overlay.meshes) {
+    list.PrimReserve(static_cast<int>(mesh.triangles.size()), static_cast<int>(mesh.points.size()));
+    const unsigned first = list._VtxCurrentIdx;
+    for (const uint32_t i : mesh.triangles) list.PrimWriteIdx(static_cast<ImDrawIdx>(first + i));
+    for (size_t i = 0; i < mesh.points.size(); ++i)
+      list.PrimWriteVtx({mesh.points[i].x + origin.x, mesh.points[i].y + origin.y}, white,
+                        packed(mesh.colours[i]));
+  }
+}
+
 // Texts with a background are kept within `area` and away from `covered`.
 void drawTexts(ImDrawList& list, const Overlay& overlay, vec2 origin, float scale, const Rect& area,
                const std::vector<Rect>& covered) {
@@ -125,8 +137,10 @@ void Viewport::draw(PanelContext ui, uint32_t texture, uint32_t second) const {
     list.AddRectFilled(low, high, theme::colour(0x000000));
   const SplitView& split = ui.session.split();
   if (split.on()) drawSecondSide(ui, list, area_, split, second);
-  drawShapes(list, ui.session.overlay(), area_.min, ui.scale);
-  drawTexts(list, ui.session.overlay(), area_.min, ui.scale, area_, covered_);
+  const Overlay overlay = ui.session.overlay();
+  drawMeshes(list, overlay, area_.min);
+  drawShapes(list, overlay, area_.min, ui.scale);
+  drawTexts(list, overlay, area_.min, ui.scale, area_, covered_);
   if (split.on()) drawSplitLabels(ui, list, area_, split);
   if (split.on() && split.heat())
     drawLegend(ui, list, area_, *split.heat());

@@ -30,7 +30,7 @@ struct Probes {
 TEST(ProbeFile, TextHasAllNumbersExactly) {
   const Probes probes;
   const auto j = nlohmann::json::parse(
-      probeText(probes.grid, probes.light, {"a \"b\".exr", 4.0f, 0.125f, {{.bounces = 3}, 64}}));
+      probeText(probes.grid, probes.light, {"a \"b\".exr", 4.0f, 0.125f, 64, 3}));
   const ProbeGrid& grid = probes.grid;
   EXPECT_EQ(j["volume"], "a \"b\".exr");
   EXPECT_EQ(j["size"], (std::vector<int>{grid.size.x, grid.size.y, grid.size.z}));

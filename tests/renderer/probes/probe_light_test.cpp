@@ -42,7 +42,7 @@ struct Lit {
         rays(render),
         reference(render, rays, {.bounces = bounces}) {}
   ProbeSh at(const vec3& place, uint32_t samples = 1024) const {
-    return reference.light(place, 7, samples);
+    return reference.light(place, samples);
   }
 };
 
@@ -164,7 +164,7 @@ Difference differenceFromReference(const RenderScene& render, const RayCaster& r
   const std::vector<vec3> normals = directions(12);
   double all = 0.0, whole = 0.0, bands = 0.0;
   for (const vec3& place : places) {
-    const ProbeSh sh = reference.light(place, 7, samples);
+    const ProbeSh sh = reference.light(place, samples);
     std::vector<vec3> irradiance;
     ProbeSh projected{};  // of irradiance over the sphere of normals
     for (size_t i = 0; i < normals.size(); ++i) {
@@ -255,20 +255,20 @@ TEST(ProbeLight, OfPartsAddsUpToTheWhole) {
   test::addRectangleLight(scene, vec3(0, 1.4f, 0), vec2(1), vec3(10));
   const Lit lit(scene, 2);
   ProbeSh parts{}, whole{};
-  lit.reference.addSamples(vec3(0), 3, 0, 16, parts);
-  lit.reference.addSamples(vec3(0), 3, 16, 48, parts);
-  lit.reference.addSamples(vec3(0), 3, 0, 64, whole);
+  lit.reference.addSamples(vec3(0), 0, 16, parts);
+  lit.reference.addSamples(vec3(0), 16, 48, parts);
+  lit.reference.addSamples(vec3(0), 0, 64, whole);
   EXPECT_EQ(parts, whole);
 }
 
 TEST(ProbeLight, IsTheSameWithAnyNumberOfThreadsAndStops) {
   Scene scene = room();
   test::addRectangleLight(scene, vec3(0, 1.4f, 0), vec2(1), vec3(10));
-  const Lit lit(scene);
+  const Lit lit(scene, 2);
   const auto find = [&](int threads, const ProbeProgress& progress) {
     const ThreadLimit limit(threads);
     const ProbeGrid grid = placeProbes(lit.render, lit.rays, {.spacing = 0.6f});
-    return probeLight(lit.render, lit.rays, grid, {{.bounces = 2}, 16}, progress);
+    return probeLight(grid, lit.reference.source(16), progress);
   };
   int calls = 0, last = 0;
   const auto one = find(1, [&](int done, int all) {
@@ -299,6 +299,26 @@ TEST(ProbeLight, IsFilledInFromNeighbours) {
   EXPECT_EQ(light, std::vector<ProbeSh>(5));
 }
 
+TEST(ProbeLight, IsInterpolatedBetweenValidProbes) {
+  ProbeGrid grid = probeNodes({vec3(-2, 0, 1), vec3(0, 1, 2)}, {.spacing = 1.0f});
+  ASSERT_EQ(grid.size, glm::ivec3(3, 2, 2));
+  std::vector<ProbeSh> light(grid.probes.size());
+  for (size_t i = 0; i < light.size(); ++i) {
+    grid.probes[i].state = ProbeState::valid;
+    const vec3 p = grid.placeOf(grid.nodeAt(i));
+    light[i][4] = vec3(2.0f * p.x - p.y + 3.0f * p.z);  // linear in the place
+  }
+  const auto at = [&](const vec3& p) { return interpolatedLight(grid, light, p).value()[4].r; };
+  EXPECT_FLOAT_EQ(at(vec3(-1.3f, 0.2f, 1.6f)), 2.0f * -1.3f - 0.2f + 3.0f * 1.6f);
+  EXPECT_FLOAT_EQ(at(vec3(-2, 0, 1)), -1.0f);
+  EXPECT_FLOAT_EQ(at(vec3(9, 9, 9)), 5.0f) << "the last node";
+  for (size_t i = 0; i < light.size(); ++i)
+    if (i % 3 != 0) grid.probes[i].state = ProbeState::inside;
+  EXPECT_FLOAT_EQ(at(vec3(-1.1f, 0, 1)), -1.0f) << "the only valid one of two";
+  EXPECT_FALSE(interpolatedLight(grid, light, vec3(-0.5f, 0.5f, 1.5f)).has_value());
+  EXPECT_FALSE(interpolatedLight({}, {}, vec3(0)).has_value());
+}
+
 // A slab in the dark: a lamp in a closed box beside it lights nothing.
 TEST(ProbeLight, BesideALevelWithoutLightIsMarked) {
   Scene scene;
@@ -311,7 +331,7 @@ TEST(ProbeLight, BesideALevelWithoutLightIsMarked) {
     const Lit lit(s, 1);
     ProbeGrid grid = placeProbes(lit.render, lit.rays, {});
     const size_t before = grid.count(ProbeState::valid);
-    markDark(lit.render, probeLight(lit.render, lit.rays, grid, {{.bounces = 1}, 32}, {}), grid);
+    markDark(lit.render, probeLight(grid, lit.reference.source(32), {}), grid);
     return std::array{before, grid.count(ProbeState::valid), grid.count(ProbeState::dark)};
   };
   const auto [before, valid, dark] = counts(scene);
