@@ -33,7 +33,7 @@ std::optional<ProbeReport> bakeProbes(const Scene& scene, const ProbeJobOptions&
   std::vector<ProbeSh> light =
       probeLight(grid, reference.source(static_cast<uint32_t>(o.samples)), progress);
   if (light.empty()) return std::nullopt;
-  markDark(render, light, grid);
+  markUnlit(render, light, grid);
   fillInvalid(grid, light);
   for (size_t i = 0; i < report.counts.size(); ++i)
     report.counts[i] = grid.count(static_cast<ProbeState>(i));

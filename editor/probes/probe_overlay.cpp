@@ -101,10 +101,10 @@ void drawProbes(Overlay& overlay, const View& view, const LiveProbes& probes,
                 const RenderScene& scene, const RayCaster& rays, const ProbeLook& look,
                 const std::optional<vec3>& prop) {
   ProbeGrid grid = probes.grid();
-  markDark(scene, probes.light(), grid);
+  markUnlit(scene, probes.light(), grid);
   std::vector<std::optional<Placed>> all(grid.probes.size());
   tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
-    if (grid.probes[i].isValid() && !probes.hasLight(i)) return;
+    if (probes.grid().probes[i].isValid() && !probes.hasLight(i)) return;
     all[i] = placedIn(view, rays, grid.probes[i].position, kBall * grid.spacing);
     if (!all[i]) return;
     all[i]->probe = i;

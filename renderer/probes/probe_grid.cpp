@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -20,6 +21,10 @@ constexpr int kSteps = 6;
 constexpr float kMargin = 1.05f;
 // Of the spacing: moved places stay so near to their node along each axis.
 constexpr float kReach = 0.5f;
+constexpr size_t kMostWalls = 3;  // around a place
+constexpr float kAlike = 0.7f;    // normals whose cosine is larger are those of one wall
+// Less of the rays meets nothing on the other side of a surface: it is that of the level.
+constexpr float kLessOpen = 0.1f;
 // Surfaces that are so near to each other, relative to their distance, are in the same place.
 constexpr float kSamePlace = 1e-4f;
 constexpr float kGrowth = 1.1f;  // of the spacing, until the bound is kept
@@ -44,12 +49,20 @@ std::array<vec3, kRays> evenDirections() {
 // What the rays from a place meet.
 struct Surroundings {
   size_t fronts = 0, backs = 0;
+  size_t turned = 0;  // backs of any surface, whether a camera sees them or not
   float nearestFront = std::numeric_limits<float>::infinity();
   float nearestBack = std::numeric_limits<float>::infinity();
-  vec3 away{0.0f};     // the normal of the nearest front, on the side of the place
-  float plane = 0.0f;  // distance of its plane
-  vec3 behind{0.0f};   // direction of the nearest back
+  // Surfaces nearer than the padding, the nearest one first: normal on the side of the place,
+  // distances of the plane and of the hit.
+  struct Plane {
+    vec3 away{0.0f};
+    float distance = 0.0f, hit = 0.0f;
+    bool isBack = false;
+  };
+  std::vector<Plane> planes;
+  vec3 towardsBack{0.0f};  // direction of the nearest back
 
+  float behind() const { return static_cast<float>(turned) / kRays; }
   float open() const { return 1.0f - static_cast<float>(fronts + backs) / kRays; }
   ProbeState state(float padding) const {
     if (fronts == 0 && kInsideShare * backs <= kRays) return ProbeState::outside;
@@ -65,35 +78,37 @@ class Surveyor {
   Surveyor(const RenderScene& scene, const RayCaster& rays)
       : scene_(scene), rays_(rays), directions_(evenDirections()) {}
 
-  Surroundings around(const vec3& place) const {
+  // Rays start a little before the place, so that they meet a surface on which it lies.
+  Surroundings around(const vec3& place, float padding) const {
+    const float before = std::max(rayEpsilon(place), 0.01f * padding);
     Surroundings found;
     for (size_t first = 0; first < kRays; first += 8) {
       std::array<Ray, 8> group;
       std::array<Hit, 8> hits;
-      for (size_t i = 0; i < 8; ++i) group[i] = {place, 0.0f, directions_[first + i]};
+      for (size_t i = 0; i < 8; ++i)
+        group[i] = {place - before * directions_[first + i], 0.0f, directions_[first + i]};
       rays_.leastHits8(group, hits);
       for (size_t i = 0; i < 8; ++i)
-        if (hits[i]) add(group[i], hits[i], found);
+        if (hits[i]) add(group[i], hits[i], std::max(hits[i].t - before, 0.0f), padding, found);
     }
+    std::ranges::stable_sort(found.planes, {}, &Surroundings::Plane::hit);
     return found;
   }
 
  private:
-  void add(const Ray& ray, const Hit& hit, Surroundings& found) const {
-    if (isUnseenBack(ray, hit)) {
-      ++found.backs;
-      if (hit.t >= found.nearestBack) return;
-      found.nearestBack = hit.t;
-      found.behind = ray.direction;
-      return;
-    }
-    ++found.fronts;
-    if (hit.t >= found.nearestFront) return;
-    found.nearestFront = hit.t;
+  // `distance`: from the place.
+  void add(const Ray& ray, const Hit& hit, float distance, float padding,
+           Surroundings& found) const {
+    found.turned += isOnBack(scene_, hit, ray.direction);
+    const bool isBack = isUnseenBack(ray, hit);
+    ++(isBack ? found.backs : found.fronts);
+    if (isBack && distance < found.nearestBack) found.towardsBack = ray.direction;
+    float& nearest = isBack ? found.nearestBack : found.nearestFront;
+    nearest = std::min(distance, nearest);
+    if (distance >= kMargin * padding) return;
     const vec3 n = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v).geometricNormal;
     const float cosine = glm::dot(n, ray.direction);
-    found.away = cosine > 0.0f ? -n : n;
-    found.plane = hit.t * std::abs(cosine);
+    found.planes.push_back({cosine > 0.0f ? -n : n, distance * std::abs(cosine), distance, isBack});
   }
 
   bool isUnseenBack(const Ray& ray, const Hit& hit) const {
@@ -107,31 +122,79 @@ class Surveyor {
   std::array<vec3, kRays> directions_;
 };
 
-Probe placed(const Surveyor& surveyor, const ProbeGrid& grid, const glm::ivec3& node,
-             float padding) {
-  const vec3 home = grid.placeOf(node);
-  Probe probe{home, ProbeState::outside, 1.0f};
-  const float reach = kReach * grid.spacing;
-  // A little more, so that rounding does not undo it.
-  const float wanted = 1.01f * kMargin * padding;
-  vec3 place = home;
-  for (int step = 0; step <= kSteps; ++step) {
-    const Surroundings found = surveyor.around(place);
-    const ProbeState state = found.state(padding);
-    if (step == 0) probe.state = state, probe.open = found.open();
-    if (state == ProbeState::valid) return {place, state, found.open()};
-    if (state == ProbeState::outside) break;
-    if (state == ProbeState::inside) {
-      if (found.backs == 0) break;
-      place += (found.nearestBack + wanted) * found.behind;
-    } else {
-      place += std::max(wanted - found.plane, 0.02f * padding) * found.away;
-    }
-    const vec3 moved = glm::abs(place - home);
-    if (std::max({moved.x, moved.y, moved.z}) > reach) break;
+class Placement {
+ public:
+  Placement(const Surveyor& surveyor, const ProbeGrid& grid, const glm::ivec3& node, float padding)
+      : surveyor_(surveyor),
+        home_(grid.placeOf(node)),
+        reach_(kReach * grid.spacing),
+        padding_(padding) {}
+
+  Probe place() const {
+    const Surroundings here = surveyor_.around(home_, padding_);
+    const ProbeState state = here.state(padding_);
+    if (state == ProbeState::valid || state == ProbeState::outside)
+      return probeAt(home_, state, here);
+    std::optional<Probe> found = besideWalls(here);
+    if (!found) found = walk(home_, here);
+    return found ? *found : probeAt(home_, state, here);
   }
-  return probe;
-}
+
+ private:
+  static Probe probeAt(const vec3& place, ProbeState state, const Surroundings& there) {
+    return {place, state, there.open(), there.behind()};
+  }
+  // A little more than the padding, so that rounding does not undo it.
+  float wanted() const { return 1.01f * kMargin * padding_; }
+  bool isInReach(const vec3& place) const {
+    const vec3 moved = glm::abs(place - home_);
+    return std::max({moved.x, moved.y, moved.z}) <= reach_;
+  }
+
+  // Of up to three near surfaces that meet at an angle, as in a corner, all combinations of sides
+  // are tried, own sides first. Another one is taken if there is more of the level around it.
+  std::optional<Probe> besideWalls(const Surroundings& here) const {
+    std::vector<Surroundings::Plane> walls;
+    for (const Surroundings::Plane& plane : here.planes)
+      if (walls.size() < kMostWalls && std::ranges::none_of(walls, [&](const auto& wall) {
+            return std::abs(glm::dot(wall.away, plane.away)) > kAlike;
+          }))
+        walls.push_back(plane);
+    std::optional<Probe> best;
+    for (uint32_t sides = 0; sides < 1u << walls.size(); ++sides) {
+      vec3 place = home_;
+      for (size_t i = 0; i < walls.size(); ++i)
+        place += (sides >> i & 1u) != 0
+                     ? -(walls[i].distance + wanted()) * walls[i].away
+                     : std::max(wanted() - walls[i].distance, 0.0f) * walls[i].away;
+      if (!isInReach(place)) continue;
+      const auto found = walk(place, surveyor_.around(place, padding_));
+      if (found && (!best || found->open < best->open - kLessOpen)) best = found;
+    }
+    return best;
+  }
+
+  std::optional<Probe> walk(vec3 place, Surroundings found) const {
+    for (int step = 0; step <= kSteps; ++step) {
+      const ProbeState state = found.state(padding_);
+      if (state == ProbeState::valid) return probeAt(place, state, found);
+      if (state == ProbeState::outside || (state == ProbeState::inside && found.backs == 0)) break;
+      if (state == ProbeState::inside) {
+        place += (found.nearestBack + wanted()) * found.towardsBack;
+      } else {
+        const auto& front = *std::ranges::find(found.planes, false, &Surroundings::Plane::isBack);
+        place += std::max(wanted() - front.distance, 0.02f * padding_) * front.away;
+      }
+      if (!isInReach(place)) break;
+      found = surveyor_.around(place, padding_);
+    }
+    return std::nullopt;
+  }
+
+  const Surveyor& surveyor_;
+  vec3 home_;
+  float reach_, padding_;
+};
 
 }  // namespace
 
@@ -151,9 +214,9 @@ ProbeGrid probeNodes(const Bounds& bounds, const ProbeGridOptions& options) {
   grid.spacing = options.spacing;
   if (bounds.empty()) return grid;
   for (;; grid.spacing *= kGrowth, grid.isCoarser = true) {
-    // Bounds on a node within rounding need no node beyond it.
-    const vec3 low = glm::floor(bounds.min / grid.spacing + 1e-3f);
-    const vec3 high = glm::ceil(bounds.max / grid.spacing - 1e-3f);
+    // Those beyond have no place in the bounds.
+    const vec3 low = glm::ceil(bounds.min / grid.spacing - kReach);
+    const vec3 high = glm::floor(bounds.max / grid.spacing + kReach);
     const vec3 furthest = glm::max(glm::abs(low), glm::abs(high));
     if (std::max({furthest.x, furthest.y, furthest.z}) > kFurthestNode) continue;
     const vec3 size = glm::max(high - low, vec3(0.0f)) + 1.0f;
@@ -173,7 +236,7 @@ ProbeGrid probeNodes(const Bounds& bounds, const ProbeGridOptions& options) {
 
 Probe placedProbe(const RenderScene& scene, const RayCaster& rays, const ProbeGrid& grid,
                   const glm::ivec3& node, float padding) {
-  return placed(Surveyor(scene, rays), grid, node, padding);
+  return Placement(Surveyor(scene, rays), grid, node, padding).place();
 }
 
 ProbeGrid placeProbes(const RenderScene& scene, const RayCaster& rays,
@@ -181,7 +244,7 @@ ProbeGrid placeProbes(const RenderScene& scene, const RayCaster& rays,
   ProbeGrid grid = probeNodes(scene.bounds, options);
   const Surveyor surveyor(scene, rays);
   tbb::parallel_for(size_t{0}, grid.probes.size(), [&](size_t i) {
-    grid.probes[i] = placed(surveyor, grid, grid.nodeAt(i), options.padding);
+    grid.probes[i] = Placement(surveyor, grid, grid.nodeAt(i), options.padding).place();
   });
   return grid;
 }

@@ -29,7 +29,8 @@ inline constexpr int kProbeStates = 5;
 struct Probe {
   vec3 position{0.0f};  // world space; moved from its node by at most half the spacing on each axis
   ProbeState state = ProbeState::outside;
-  float open = 1.0f;  // share of the rays from there that meet nothing
+  float open = 1.0f;    // share of the rays from there that meet nothing
+  float behind = 0.0f;  // share that meets backs, also of surfaces that are seen from both sides
   bool isValid() const { return state == ProbeState::valid; }
 };
 
@@ -53,7 +54,8 @@ struct ProbeGrid {
   size_t count(ProbeState state) const;
 };
 
-// The nodes that cover the bounds of the scene, none of them placed yet. No bounds: no nodes.
+// The nodes in the bounds of the scene, and those around them that are at most half a spacing away
+// along each axis; none of them is placed yet. No bounds: no nodes.
 ProbeGrid probeNodes(const Bounds& bounds, const ProbeGridOptions& options);
 
 // Finds place and state of one node by 64 rays, and by as many from each place that is tried.
@@ -66,12 +68,14 @@ ProbeGrid probeNodes(const Bounds& bounds, const ProbeGridOptions& options);
 //   padding and nearer than every front,
 // - near, if a front is nearer than the padding,
 // - valid otherwise.
-// A node inside is tried beyond the nearest back, at the distance of the padding from it; one that
-// is near is tried further away along the normal of the nearest surface. A few such steps are made,
-// as long as they stay within half the spacing of the node along each axis. If no place is valid,
-// the node has its own place and state.
+// A node that is near or inside is tried on both sides of up to three surfaces within the padding
+// that meet at an angle, at the distance of the padding from them; of valid places the one is taken
+// from which fewest rays meet nothing, so that a node in a wall belongs to the room. Otherwise, and
+// from there, it is tried beyond the nearest back, or further away from the nearest front. A few
+// such steps are made, as long as they stay within half the spacing of the node along each axis. If
+// no place is valid, the node has its own place and state.
 //
-// State `dark` is not found here: see markDark() in probe_light.h. Deterministic.
+// State `dark` is not found here: see markUnlit() in probe_light.h. Deterministic.
 Probe placedProbe(const RenderScene& scene, const RayCaster& rays, const ProbeGrid& grid,
                   const glm::ivec3& node, float padding);
 

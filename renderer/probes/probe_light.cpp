@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kKeySet = 0x9b;
 constexpr size_t kBatch = 64;  // probes between two calls of progress
-constexpr float kOpenShare = 0.5f;
+constexpr float kOpenShare = 0.5f, kBehindShare = 0.5f;
 
 bool isZero(const ProbeSh& sh) {
   return std::ranges::all_of(sh, [](const vec3& c) { return c == vec3(0.0f); });
@@ -133,11 +133,14 @@ std::vector<ProbeSh> probeLight(const ProbeGrid& grid, const ProbeSource& source
   return light;
 }
 
-void markDark(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid) {
-  if (hasFarLight(scene)) return;
+void markUnlit(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid) {
+  const bool isLitFromFar = hasFarLight(scene);
   for (size_t i = 0; i < grid.probes.size(); ++i) {
     Probe& probe = grid.probes[i];
-    if (probe.isValid() && probe.open > kOpenShare && isZero(light[i]))
+    if (!probe.isValid() || !isZero(light[i])) continue;
+    if (probe.behind > kBehindShare)
+      probe.state = ProbeState::inside;
+    else if (probe.open > kOpenShare && !isLitFromFar)
       probe.state = ProbeState::dark;
   }
 }

@@ -71,10 +71,16 @@ using ProbeProgress = std::function<bool(int done, int all)>;
 std::vector<ProbeSh> probeLight(const ProbeGrid& grid, const ProbeSource& source,
                                 const ProbeProgress& progress);
 
-// In a level without sky and sun, valid probes from which more than half of the rays meet nothing
-// (Probe::open) and where no light arrives become dark: they are beside the level, such as around a
-// closed house, and would darken what is interpolated near its walls.
-void markDark(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid);
+// Valid probes where no light arrives at all are in one of two places where none is wanted, because
+// they would darken what is interpolated near walls:
+//
+// - Inside of something that is seen from both sides, and so has no inside by placeProbes(): more
+//   than half of the rays meet backs (Probe::behind). They become inside.
+// - Beside a level without sky and sun, such as around a closed house: more than half of the rays
+//   meet nothing (Probe::open). They become dark.
+//
+// Others stay valid: dark rooms are dark.
+void markUnlit(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid);
 
 // The light at a place by trilinear interpolation between the eight nodes around it (the nearest
 // ones outside of the grid), of valid probes alone: the weights of others are shared out. None if

@@ -7,6 +7,7 @@
 #include "renderer/base/random.h"
 #include "renderer/base/threads.h"
 #include "renderer/frame/world.h"
+#include "renderer/probes/probe_light.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
 #include "tests/support/scenes.h"
@@ -17,12 +18,13 @@ namespace {
 
 TEST(ProbeGrid, IsAnchoredInTheWorld) {
   const ProbeGrid a = probeNodes({vec3(-0.3f, 0.1f, 0.9f), vec3(2.2f, 1.4f, 3.0f)}, {});
-  EXPECT_EQ(a.first, glm::ivec3(-1, 0, 0));
-  EXPECT_EQ(a.size, glm::ivec3(5, 3, 4));  // −1 … 3, 0 … 2, 0 … 3: 3.0 needs no node beyond it
+  EXPECT_EQ(a.first, glm::ivec3(0, 0, 1));
+  EXPECT_EQ(a.size, glm::ivec3(3, 2, 3));  // 0 … 2, 0 … 1 and 1 … 3: those within half a metre
   const ProbeGrid b = probeNodes({vec3(-3.7f, 0.1f, 0.9f), vec3(2.2f, 1.4f, 3.0f)}, {});
-  EXPECT_EQ(b.placeOf({3, 1, 1}), a.placeOf({0, 1, 1}));
+  EXPECT_EQ(b.first, glm::ivec3(-4, 0, 1));
+  EXPECT_EQ(b.placeOf({4, 1, 1}), a.placeOf({0, 1, 1}));
   for (size_t i = 0; i < a.probes.size(); ++i) EXPECT_EQ(a.indexOf(a.nodeAt(i)), i);
-  EXPECT_EQ(a.probes[a.indexOf({1, 2, 3})].position, vec3(0, 2, 3));
+  EXPECT_EQ(a.probes[a.indexOf({2, 1, 0})].position, vec3(2, 1, 1));
   EXPECT_TRUE(probeNodes({}, {}).probes.empty());
 }
 
@@ -113,6 +115,44 @@ TEST(ProbeGrid, HasNoProbesBehindWallsOfOneSide) {
   EXPECT_GT(above, 0u);
 }
 
+// Walls of levels are often at whole metres. A node on a wall belongs to the room, also where the
+// wall is seen from both sides.
+TEST(ProbeGrid, HasTheNodesOnWallsInTheRoom) {
+  for (const bool isDoubleSided : {false, true}) {
+    Scene scene;
+    const int grey = test::addMaterial(scene, vec3(0.5f));
+    scene.materials.back().doubleSided = isDoubleSided;
+    test::addMesh(scene, test::roomMesh(vec3(4, 2, 6), grey), vec3(0, 1, 0));
+    const RenderScene render = test::renderSceneOf(scene);
+    const ProbeGrid grid = placeProbes(render, RayCaster(render), {});
+    EXPECT_EQ(grid.size, glm::ivec3(5, 3, 7));
+    EXPECT_EQ(grid.count(ProbeState::valid), 5u * 3u * 7u);
+    for (const Probe& p : grid.probes) {
+      const vec3 room = vec3(2, 1, 3) - glm::abs(p.position - vec3(0, 1, 0));
+      EXPECT_GE(std::min({room.x, room.y, room.z}), 0.249f) << isDoubleSided;
+    }
+  }
+}
+
+TEST(ProbeGrid, HasNoUnlitProbesInSolidsThatAreSeenFromBothSides) {
+  Scene scene;
+  const int grey = test::addMaterial(scene, vec3(0.5f));
+  scene.materials.back().doubleSided = true;
+  test::addMesh(scene, test::roomMesh(vec3(8, 5, 8), grey));
+  test::addMesh(scene, test::boxMesh(vec3(3), grey), vec3(1.2f, 0, 0.4f));
+  test::addRectangleLight(scene, vec3(-2, 2.4f, 0), vec2(1), vec3(10));
+  const RenderScene render = test::renderSceneOf(scene);
+  const RayCaster rays(render);
+  ProbeGrid grid = placeProbes(render, rays, {});
+  const ProbeReference reference(render, rays, {.bounces = 1});
+  markUnlit(render, probeLight(grid, reference.source(16), {}), grid);
+  EXPECT_GE(grid.count(ProbeState::inside), 8u);
+  for (const Probe& p : grid.probes)
+    if (p.isValid()) {
+      EXPECT_GT(House::distance(p.position, vec3(1.2f, 0, 0.4f), vec3(3)), 0.24f);
+    }
+}
+
 TEST(ProbeGrid, IsTheSameWithAnyNumberOfThreads) {
   const House house;
   const RayCaster rays(house.render);
@@ -139,25 +179,30 @@ TEST_P(ProbesInLevel, AreNotInsideWalls) {
   world.update(loaded.scene, SceneChanges::all());
   const RenderScene& scene = world.scene();
   const ProbeGridOptions options{.spacing = 0.5f, .padding = 0.2f, .most = 4096};
-  const ProbeGrid grid = placeProbes(scene, *world.rays(), options);
+  ProbeGrid grid = placeProbes(scene, *world.rays(), options);
+  const ProbeReference reference(scene, *world.rays(), {.bounces = 1});
+  const std::vector<ProbeSh> light = probeLight(grid, reference.source(8), {});
+  markUnlit(scene, light, grid);
   const size_t valid = grid.count(ProbeState::valid);
   size_t inside = 0, close = 0;
-  for (uint32_t number = 0; const Probe& p : grid.probes) {
-    ++number;
+  for (size_t number = 0; number < grid.probes.size(); ++number) {
+    const Probe& p = grid.probes[number];
     if (!p.isValid()) continue;
-    int backs = 0, hits = 0, near = 0;
+    int backs = 0, turned = 0, hits = 0, near = 0;
     for (uint32_t i = 0; i < 128; ++i) {
-      const vec3 direction = sampleSphere(sobol2(i, number));
+      const vec3 direction = sampleSphere(sobol2(i, static_cast<uint32_t>(number)));
       const Hit hit = world.rays()->intersect({p.position, 0.0f, direction});
       if (!hit) continue;
       ++hits;
       near += hit.t < 0.9f * options.padding;
       const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
-      if (!scene.backIsUnseen(hit.object) || glm::dot(s.geometricNormal, direction) <= 0.0f)
-        continue;
-      ++backs;
+      if (glm::dot(s.geometricNormal, direction) <= 0.0f) continue;
+      ++turned;
+      backs += scene.backIsUnseen(hit.object);
     }
+    // Where surfaces are seen from both sides, a room may be made of backs, but then it has light.
     inside += hits > 16 && 2 * backs > hits;
+    inside += turned > 115 && light[number] == ProbeSh{};
     close += near > 4;
   }
   RecordProperty("valid", static_cast<int>(valid));

@@ -331,7 +331,7 @@ TEST(ProbeLight, BesideALevelWithoutLightIsMarked) {
     const Lit lit(s, 1);
     ProbeGrid grid = placeProbes(lit.render, lit.rays, {});
     const size_t before = grid.count(ProbeState::valid);
-    markDark(lit.render, probeLight(grid, lit.reference.source(32), {}), grid);
+    markUnlit(lit.render, probeLight(grid, lit.reference.source(32), {}), grid);
     return std::array{before, grid.count(ProbeState::valid), grid.count(ProbeState::dark)};
   };
   const auto [before, valid, dark] = counts(scene);
