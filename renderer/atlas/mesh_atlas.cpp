@@ -32,37 +32,17 @@ struct StoredChart {
 };
 static_assert(std::is_trivially_copyable_v<StoredChart>);
 
-// By how much the texels of a chart are larger, so that it has no more than so many, about: in
-// steps of a tenth.
-float coarsening(const MeshChart& chart, std::span<const vec3> positions,
-                 std::span<const uint32_t> indices, float texelsPerMetre, size_t mostOfChart) {
-  constexpr double kStep = 1.1;
-  if (mostOfChart == std::numeric_limits<size_t>::max()) return 1.0f;
-  double area = 0.0;
-  for (const uint32_t t : chart.triangles) {
-    const vec3& a = positions[indices[3 * t]];
-    const vec3 b = positions[indices[3 * t + 1]] - a, c = positions[indices[3 * t + 2]] - a;
-    area += 0.5 * static_cast<double>(glm::length(glm::cross(b, c)));
-  }
-  const double side = static_cast<double>(texelsPerMetre);
-  const double factor =
-      std::sqrt(area * side * side / static_cast<double>(std::max<size_t>(mostOfChart, 1)));
-  if (factor <= 1.0) return 1.0f;
-  return static_cast<float>(std::pow(kStep, std::ceil(std::log(factor) / std::log(kStep))));
-}
-
 }  // namespace
 
 MeshAtlas makeMeshAtlas(std::span<const vec3> positions, std::span<const uint32_t> indices,
-                        float texelsPerMetre, size_t mostOfChart) {
+                        float texelsPerMetre) {
   MeshAtlas atlas;
   int64_t area = 0;
   int widest = 1;
   for (MeshChart& chart : unwrap(positions, indices, texelsPerMetre)) {
     PlacedChart& placed = atlas.charts.emplace_back();
     placed.chart = std::move(chart);
-    setDensity(placed, texelsPerMetre / coarsening(placed.chart, positions, indices, texelsPerMetre,
-                                                   mostOfChart));
+    setDensity(placed, texelsPerMetre);
     area += int64_t{placed.size.x} * placed.size.y;
     widest = std::max({widest, placed.size.x, placed.size.y});
   }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,8 +25,7 @@ struct MeshAtlas {
 
 // As unwrap(); the rectangle is nearly square, and filled by the skyline heuristic.
 MeshAtlas makeMeshAtlas(std::span<const vec3> positions, std::span<const uint32_t> indices,
-                        float texelsPerMetre,
-                        size_t mostOfChart = std::numeric_limits<size_t>::max());
+                        float texelsPerMetre);
 
 // For files.
 std::vector<uint8_t> bytesOf(const MeshAtlas& atlas);

@@ -52,7 +52,7 @@ GatheredLight::GatheredLight(const RenderScene& scene, const RayCaster& rays,
     : scene_(scene), rays_(rays), options_(options), side_(texelSideOf(scene, options)) {
   if (options.bounces == 0) return;
   ObjectCharts charts{std::filesystem::path()};
-  const auto atlases = charts.find(scene, {1.0f / side_});
+  const auto atlases = charts.find(scene, 1.0f / side_);
   atlases_.assign(atlases.begin(), atlases.end());
   texels_ = TexelSet(scene, atlases_, options.order);
   tree_ = TexelTree(texels_);

@@ -43,7 +43,7 @@ SurfaceVisibility findVisibility(const RenderScene& scene, const RayCaster& rays
   SurfaceVisibility out;
   out.side = texelSideOf(scene, options);
   ObjectCharts charts{std::filesystem::path()};
-  out.texels = TexelSet(scene, charts.find(scene, {1.0f / out.side}), options.order);
+  out.texels = TexelSet(scene, charts.find(scene, 1.0f / out.side), options.order);
   out.texels.findBuried(scene, rays);
   out.depths.restart(scene, out.texels, options.map);
   while (!out.depths.isDone()) out.depths.goOn(scene, rays, out.texels, kRaysOfDepths);

@@ -15,8 +15,6 @@ namespace {
 
 // Memory of a texel besides its partners, about [bytes].
 constexpr size_t kTexelBytes = 400;
-// Of all texels, that a chart may have: the ground around a house leaves some for the rooms.
-constexpr float kShareOfChart = 1.0f / 16.0f;
 // Lines cost as much as rays where a texel has so many triangles (README).
 constexpr size_t kTrianglesATexel = 32;
 // Places of a direction's part of the sphere at which the sky is taken.
@@ -71,12 +69,12 @@ vec3 emissionOf(const RenderScene& scene, const SurfaceTexel& texel) {
 
 void LightField::takeGeometry(const RenderScene& scene, Services& services,
                               const RenderSceneChanges& changes) {
-  const auto sizeOf = [&] {
+  const auto sideOf = [&] {
     const size_t bytes = directionsOf(options_) * sizeof(uint32_t) + kTexelBytes;
-    return texelSizeFor(scene, options_.texel, options_.memory / bytes, kShareOfChart);
+    return texelSideFor(scene, options_.texel, options_.memory / bytes);
   };
   const SceneTexels::Update update =
-      ground_.take(scene, services, changes, sizeOf, TexelOrder::zigzag);
+      ground_.take(scene, services, changes, sideOf, TexelOrder::zigzag);
   const TexelSet& texels = ground_.set();
   if (update.change == SceneTexels::Change::lamps) {
     lamps_.outdate(update.moves, false);

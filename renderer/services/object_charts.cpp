@@ -12,8 +12,8 @@ std::span<const uint32_t> indicesOf(const RenderScene& scene, const RenderObject
   return std::span(scene.indices).subspan(o.firstIndex, o.indexCount);
 }
 
-// Of an object, in its own space [texels by unit]. The scale is rounded to steps of 1/256 to 1/512,
-// so that the rounding errors of a rotation make no other layout.
+// Of own space. The scale is rounded to steps of 1/256 to 1/512, so that the rounding errors of a
+// rotation make no other layout.
 float densityOf(const OwnSpace& space, float texelsPerMetre) {
   int exponent = 0;
   const float mantissa = std::frexp(space.scale, &exponent);
@@ -21,11 +21,9 @@ float densityOf(const OwnSpace& space, float texelsPerMetre) {
 }
 
 ContentKey keyOf(const RenderScene& scene, const RenderObject& o, const OwnSpace& space,
-                 const TexelDensity& density) {
+                 float texelsPerMetre) {
   ContentHash hash;
-  hash.add(densityOf(space, density.texelsPerMetre));
-  // Charts that were kept before there was a limit have no other key.
-  if (density.mostOfChart != TexelDensity().mostOfChart) hash.add(uint64_t{density.mostOfChart});
+  hash.add(densityOf(space, texelsPerMetre));
   for (int c = 0; c < 3; ++c) hash.add(space.stretch[c]);
   hash.add(uint64_t{o.vertexCount});
   for (uint32_t i = 0; i < o.vertexCount; ++i) hash.add(scene.localPositions[o.firstVertex + i]);
@@ -35,15 +33,14 @@ ContentKey keyOf(const RenderScene& scene, const RenderObject& o, const OwnSpace
 }
 
 MeshAtlas computeAtlas(const RenderScene& scene, const RenderObject& o, const OwnSpace& space,
-                       const TexelDensity& density) {
+                       float texelsPerMetre) {
   std::vector<vec3> positions(o.vertexCount);
   for (uint32_t i = 0; i < o.vertexCount; ++i)
     positions[i] = space.stretch * scene.localPositions[o.firstVertex + i];
   std::vector<uint32_t> indices;
   indices.reserve(o.indexCount);
   for (const uint32_t i : indicesOf(scene, o)) indices.push_back(i - o.firstVertex);
-  return makeMeshAtlas(positions, indices, densityOf(space, density.texelsPerMetre),
-                       density.mostOfChart);
+  return makeMeshAtlas(positions, indices, densityOf(space, texelsPerMetre));
 }
 
 }  // namespace
@@ -57,15 +54,13 @@ void ObjectCharts::place(const RenderScene& scene, uint32_t object) {
                       densityOf(before, 1.0f) == densityOf(*space, 1.0f);
   if (isSame) return;
   keys_[object].reset();
-  if (!space) return;
-  keys_[object] = keyOf(scene, o, *space, *density_);
+  if (space) keys_[object] = keyOf(scene, o, *space, texelsPerMetre_);
 }
 
-std::span<const ObjectAtlas> ObjectCharts::find(const RenderScene& scene,
-                                                const TexelDensity& density) {
+std::span<const ObjectAtlas> ObjectCharts::find(const RenderScene& scene, float texelsPerMetre) {
   const RenderSceneChanges changes = std::exchange(changes_, {});
-  if (changes.rebuilt || density != density_) {
-    density_ = density;
+  if (changes.rebuilt || texelsPerMetre != texelsPerMetre_) {
+    texelsPerMetre_ = texelsPerMetre;
     objects_.assign(scene.objects.size(), {});
     keys_.assign(scene.objects.size(), {});
     tbb::parallel_for(size_t{0}, keys_.size(),
@@ -99,7 +94,7 @@ std::span<const ObjectAtlas> ObjectCharts::find(const RenderScene& scene,
     if (const auto bytes = files_.load(m.key)) atlas = meshAtlasOf(*bytes, o.triangleCount());
     m.isComputed = !atlas;
     if (!atlas) {
-      atlas = computeAtlas(scene, o, objects_[m.object].space, *density_);
+      atlas = computeAtlas(scene, o, objects_[m.object].space, texelsPerMetre_);
       files_.save(m.key, bytesOf(*atlas));
     }
     m.atlas = std::make_shared<const MeshAtlas>(std::move(*atlas));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,14 +30,6 @@ struct ObjectAtlas {
 
 // Layouts are keyed by content: the vertices and indices of the mesh, its stretch and the density.
 // They are kept in memory while an object uses them, and on disk.
-// How finely objects are divided.
-struct TexelDensity {
-  float texelsPerMetre = 1.0f;
-  // A chart of more texels than this gets larger ones, about.
-  size_t mostOfChart = std::numeric_limits<size_t>::max();
-  bool operator==(const TexelDensity&) const = default;
-};
-
 class ObjectCharts {
  public:
   // Of all files; the oldest are deleted first.
@@ -51,7 +42,7 @@ class ObjectCharts {
   void outdate(const RenderSceneChanges& changes) { changes_.merge(changes); }
   // By object. Missing layouts are loaded or computed, in parallel. Area lights, empty objects, and
   // objects that their node flattens, have none. Valid until the next call.
-  std::span<const ObjectAtlas> find(const RenderScene& scene, const TexelDensity& density);
+  std::span<const ObjectAtlas> find(const RenderScene& scene, float texelsPerMetre);
 
   size_t computed() const { return computed_; }  // layouts since construction
   std::filesystem::path fileOf(uint32_t object) const { return files_.fileOf(*keys_[object]); }
@@ -61,7 +52,7 @@ class ObjectCharts {
 
   ContentCache files_;
   RenderSceneChanges changes_;
-  std::optional<TexelDensity> density_;  // of the last find()
+  float texelsPerMetre_ = 0.0f;  // of the last find(); 0: there was none
   std::vector<ObjectAtlas> objects_;
   std::vector<std::optional<ContentKey>> keys_;  // by object
   std::map<ContentKey, std::shared_ptr<const MeshAtlas>> known_;

@@ -40,10 +40,10 @@ const SurfaceSampler& Services::surfaces() {
   return *surfaces_;
 }
 
-std::span<const ObjectAtlas> Services::charts(const TexelDensity& density) {
+std::span<const ObjectAtlas> Services::charts(float texelsPerMetre) {
   note(Service::charts);
   if (!charts_) charts_ = std::make_unique<ObjectCharts>(cacheFolder_);
-  return charts_->find(*scene_, density);
+  return charts_->find(*scene_, texelsPerMetre);
 }
 
 }  // namespace lamplighter

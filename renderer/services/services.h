@@ -51,7 +51,7 @@ class Services {
   // Points on all surfaces, uniform by area.
   const SurfaceSampler& surfaces();
   // By object: its charts and texel layout in object space. Valid until the next call.
-  std::span<const ObjectAtlas> charts(const TexelDensity& density);
+  std::span<const ObjectAtlas> charts(float texelsPerMetre);
 
   // Whether a method has asked for the service since construction.
   bool hasAsked(Service service) const { return (asked_ >> static_cast<int>(service) & 1u) != 0; }

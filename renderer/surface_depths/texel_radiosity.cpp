@@ -25,15 +25,14 @@ constexpr uint64_t kRaysALinkedTexel = 64, kKnownARay = 8;
 float texelSideOf(const RenderScene& scene, const TexelRadiosityOptions& options) {
   const size_t bytes =
       options.map.pixels() * kSegmentBytes / kTexelsASegment + kLinksATexel * sizeof(TexelLink);
-  return texelSizeFor(scene, options.texel, options.memory / bytes).side;
+  return texelSideFor(scene, options.texel, options.memory / bytes);
 }
 
 // Finds the texels anew if surfaces are at other places. While surfaces move, the old texels stay.
 void TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
                                   const RenderSceneChanges& changes) {
   const SceneTexels::Update update = ground_.take(
-      scene, services, changes, [&] { return TexelSize{texelSideOf(scene, options_)}; },
-      options_.order);
+      scene, services, changes, [&] { return texelSideOf(scene, options_); }, options_.order);
   counts_.texel = ground_.side();
   counts_.rays += ground_.rays();
   const TexelSet& texels = ground_.set();

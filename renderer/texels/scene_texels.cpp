@@ -29,26 +29,11 @@ std::vector<SceneTexels::Sides> sidesOf(const RenderScene& scene) {
   return out;
 }
 
-// Of triangles that texels are on [m²].
-std::vector<double> areasOf(const RenderScene& scene) {
-  std::vector<double> areas;
-  for (const RenderObject& o : scene.objects) {
-    if (o.isAreaLight) continue;
-    for (uint32_t i = o.firstIndex; i < o.firstIndex + o.indexCount; i += 3) {
-      const vec3& a = scene.positions[scene.indices[i]];
-      const vec3 b = scene.positions[scene.indices[i + 1]] - a;
-      const vec3 c = scene.positions[scene.indices[i + 2]] - a;
-      areas.push_back(0.5 * static_cast<double>(glm::length(glm::cross(b, c))));
-    }
-  }
-  return areas;
-}
-
 }  // namespace
 
 SceneTexels::Update SceneTexels::take(const RenderScene& scene, Services& services,
                                       const RenderSceneChanges& changes,
-                                      const std::function<TexelSize()>& sizeOf, TexelOrder order) {
+                                      const std::function<float()>& sideOf, TexelOrder order) {
   rays_ = 0;
   Update out;
   const bool isOther = !isStarted_ || changes.rebuilt;
@@ -73,10 +58,10 @@ SceneTexels::Update SceneTexels::take(const RenderScene& scene, Services& servic
     isStale_ = false;
     ++version_;
     takeSides(scene);
-    const TexelSize size = sizeOf();
+    const float side = sideOf();
     out.change = Change::found;
-    out.isAnew = isOther || size != size_;
-    size_ = size;
+    out.isAnew = isOther || side != side_;
+    side_ = side;
     takeAtlases(services);
     texels_ = TexelSet(scene, atlases_, order);
     rays_ += texels_.findBuried(scene, services.rays());
@@ -101,7 +86,7 @@ bool SceneTexels::takeSides(const RenderScene& scene) {
 }
 
 void SceneTexels::takeAtlases(Services& services) {
-  const auto atlases = services.charts({1.0f / size_.side, size_.mostOfChart});
+  const auto atlases = services.charts(1.0f / side_);
   atlases_.assign(atlases.begin(), atlases.end());
 }
 
@@ -125,25 +110,16 @@ std::vector<vec3> albedoOf(const RenderScene& scene, const TexelSet& texels) {
   return albedo;
 }
 
-TexelSize texelSizeFor(const RenderScene& scene, float side, size_t most, float shareOfChart) {
+float texelSideFor(const RenderScene& scene, float side, size_t most) {
   constexpr double kSideStep = 1.1;
-  most = std::max<size_t>(most, 1);
-  // A chart has two triangles or more.
-  const bool isShared = shareOfChart < 1.0f;
-  const double mostOfTriangle =
-      static_cast<double>(most) * (isShared ? 0.5 * static_cast<double>(shareOfChart) : 1.0);
-  TexelSize size{side};
-  if (isShared) size.mostOfChart = static_cast<size_t>(2.0 * mostOfTriangle);
-  const std::vector<double> areas = areasOf(scene);
-  const auto texels = [&] {
-    double sum = 0.0;
-    for (const double area : areas)
-      sum += std::min(area / static_cast<double>(size.side * size.side), mostOfTriangle);
-    return sum;
-  };
-  for (int step = 1; texels() > static_cast<double>(most); ++step)
-    size.side = side * static_cast<float>(std::pow(kSideStep, step));
-  return size;
+  double area = 0.0;
+  for (const RenderObject& o : scene.objects)
+    if (!o.isAreaLight) area += areaOf(scene, o);
+  const double factor =
+      std::sqrt(area / static_cast<double>(std::max<size_t>(most, 1))) / static_cast<double>(side);
+  if (factor <= 1.0) return side;
+  const double steps = std::ceil(std::log(factor) / std::log(kSideStep));
+  return side * static_cast<float>(std::pow(kSideStep, steps));
 }
 
 }  // namespace lamplighter

@@ -12,13 +12,6 @@
 
 namespace lamplighter {
 
-struct TexelSize {
-  float side = 0.25f;  // [m]
-  // Texels of a chart that has more of them than this are larger.
-  size_t mostOfChart = TexelDensity().mostOfChart;
-  bool operator==(const TexelSize&) const = default;
-};
-
 class SceneTexels {
  public:
   // What changed for those who keep something by texel.
@@ -35,10 +28,10 @@ class SceneTexels {
     PlacedTexels before;       // likewise
     std::set<uint32_t> moved;  // objects that moved, came or went since the last one of these
   };
-  // Takes the changes of each frame since the last call. `sizeOf`: of texels that are found
-  // anew.
+  // Takes the changes of each frame since the last call. `sideOf`: of texels that are found anew
+  // [m].
   Update take(const RenderScene& scene, Services& services, const RenderSceneChanges& changes,
-              const std::function<TexelSize()>& sizeOf, TexelOrder order);
+              const std::function<float()>& sideOf, TexelOrder order);
   // The next take() finds texels with nothing of before.
   void restart() { isStarted_ = false; }
   // Whether the texels are those of now.
@@ -49,7 +42,7 @@ class SceneTexels {
   const PlacedTexels& places() const { return places_; }
   // By object.
   const std::vector<ObjectAtlas>& atlases() const { return atlases_; }
-  float side() const { return size_.side; }  // [m]
+  float side() const { return side_; }  // [m]
   // Differs if the texels are other ones.
   uint32_t version() const { return version_; }
   uint64_t rays() const { return rays_; }  // of the last take()
@@ -75,7 +68,7 @@ class SceneTexels {
   PlacedTexels places_;       // when texels were found last
   std::vector<Sides> sides_;  // by object
   std::set<uint32_t> moved_;  // since then
-  TexelSize size_;
+  float side_ = 0.0f;
   bool isStarted_ = false;
   bool isStale_ = false;  // surfaces moved since texels were found
   uint32_t version_ = 0;
@@ -85,10 +78,9 @@ class SceneTexels {
 // The mean albedo of each texel, over its area.
 std::vector<vec3> albedoOf(const RenderScene& scene, const TexelSet& texels);
 
-// The size of texels of a scene: `side` [m], or larger where there would be more than so many. They
+// The side of texels of a scene: `side` [m], or larger where there would be more than so many. They
 // get larger by a tenth at a time, so that moves, which change the area by rounding, do not change
-// them. `shareOfChart`: of the texels, that a chart may have.
-TexelSize texelSizeFor(const RenderScene& scene, float side, size_t most,
-                       float shareOfChart = 1.0f);
+// them.
+float texelSideFor(const RenderScene& scene, float side, size_t most);
 
 }  // namespace lamplighter

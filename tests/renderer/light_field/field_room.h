@@ -27,7 +27,7 @@ struct FieldRoom {
     room.find(box)->local.rotation = glm::angleAxis(0.4f, glm::normalize(vec3(1, 2, 3)));
     scene = renderSceneOf(room);
     rays = std::make_unique<RayCaster>(scene);
-    const auto found = charts.find(scene, {1.0f / texel});
+    const auto found = charts.find(scene, 1.0f / texel);
     atlases.assign(found.begin(), found.end());
     texels = TexelSet(scene, atlases, TexelOrder::zigzag);
     texels.findBuried(scene, *rays);

@@ -43,7 +43,7 @@ class ObjectChartsTest : public testing::Test {
 
 TEST_F(ObjectChartsTest, InstancesShareALayout) {
   ObjectCharts charts({});
-  const auto objects = charts.find(render_, {16.0f});
+  const auto objects = charts.find(render_, 16.0f);
   ASSERT_EQ(objects.size(), 2u);
   EXPECT_EQ(charts.computed(), 1u);
   EXPECT_EQ(objects[0].atlas, objects[1].atlas);
@@ -60,18 +60,18 @@ TEST_F(ObjectChartsTest, InstancesShareALayout) {
 
 TEST_F(ObjectChartsTest, OnlyWhatChangesTheLayoutMakesAnother) {
   ObjectCharts charts({});
-  charts.find(render_, {16.0f});
+  charts.find(render_, 16.0f);
   charts.outdate(change([&](Scene& s) {
     s.find(first_)->local.translation.y = 4.0f;
     s.find(first_)->local.rotation = glm::normalize(quat(0.3f, -0.5f, 0.2f, 0.1f));
   }));
-  EXPECT_EQ(charts.find(render_, {16.0f})[0].space.translation.y, 4.0f);
+  EXPECT_EQ(charts.find(render_, 16.0f)[0].space.translation.y, 4.0f);
   EXPECT_EQ(charts.computed(), 1u);
   charts.outdate(change([&](Scene& s) { s.find(first_)->local.scale = vec3(2.0f); }));
-  const auto objects = charts.find(render_, {16.0f});
+  const auto objects = charts.find(render_, 16.0f);
   EXPECT_EQ(charts.computed(), 2u);
   EXPECT_GT(objects[0].atlas->size.x, objects[1].atlas->size.x) << "texels are of one size";
-  charts.find(render_, {8.0f});
+  charts.find(render_, 8.0f);
   EXPECT_EQ(charts.computed(), 3u) << "at half the density the larger box has the layout that the "
                                       "smaller one had";
 }
@@ -81,7 +81,7 @@ TEST_F(ObjectChartsTest, AreaLightsAndFlattenedObjectsHaveNone) {
   scene_.find(second_)->local.scale.y = 0.0f;
   update(render_, scene_, SceneChanges::all());
   ObjectCharts charts({});
-  const auto objects = charts.find(render_, {16.0f});
+  const auto objects = charts.find(render_, 16.0f);
   ASSERT_EQ(objects.size(), 3u);
   EXPECT_NE(objects[0].atlas, nullptr);
   EXPECT_EQ(objects[1].atlas, nullptr);
@@ -93,13 +93,13 @@ TEST_F(ObjectChartsTest, AFileIsReusedAndADamagedOneIsReplaced) {
   fs::path file;
   {
     ObjectCharts charts(folder_);
-    expected = bytesOf(*charts.find(render_, {16.0f})[0].atlas);
+    expected = bytesOf(*charts.find(render_, 16.0f)[0].atlas);
     file = charts.fileOf(0);
     EXPECT_EQ(charts.computed(), 1u);
   }
   const auto find = [&](size_t computed) {
     ObjectCharts charts(folder_);
-    EXPECT_EQ(bytesOf(*charts.find(render_, {16.0f})[0].atlas), expected);
+    EXPECT_EQ(bytesOf(*charts.find(render_, 16.0f)[0].atlas), expected);
     EXPECT_EQ(charts.computed(), computed);
   };
   find(0);

@@ -76,10 +76,10 @@ TEST_F(ServicesTest, SurfacesFollowTheScene) {
 }
 
 TEST_F(ServicesTest, ChartsFollowTheScene) {
-  ASSERT_EQ(services_.charts({8.0f}).size(), 2u);
-  EXPECT_EQ(services_.charts({8.0f})[0].atlas->charts.size(), 6u);
+  ASSERT_EQ(services_.charts(8.0f).size(), 2u);
+  EXPECT_EQ(services_.charts(8.0f)[0].atlas->charts.size(), 6u);
   move(vec3(3, 0, 0));
-  EXPECT_EQ(services_.charts({8.0f})[0].space.translation.x, 3.0f);
+  EXPECT_EQ(services_.charts(8.0f)[0].space.translation.x, 3.0f);
 }
 
 }  // namespace

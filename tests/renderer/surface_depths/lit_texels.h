@@ -22,7 +22,7 @@ struct RoomTexels {
       addMesh(room, boxMesh(vec3(1.0f), addMaterial(room, vec3(0.5f))), vec3(0.3f, -1.0f, 0.2f));
     scene = renderSceneOf(room);
     rays = std::make_unique<RayCaster>(scene);
-    texels = TexelSet(scene, charts.find(scene, {1.0f / texel}), order);
+    texels = TexelSet(scene, charts.find(scene, 1.0f / texel), order);
   }
   SurfaceDepths depths(const DepthMapLayout& layout) const {
     SurfaceDepths out;

@@ -23,7 +23,7 @@ struct WallOnFloor {
       test::addMesh(s, test::boxMesh(vec3(4.0f, 1.0f, 0.04f), white), vec3(0.0f, 0.5f, 0.0f));
     scene = test::renderSceneOf(s);
     rays = std::make_unique<RayCaster>(scene);
-    texels = TexelSet(scene, charts.find(scene, {4.0f}), TexelOrder::zigzag);
+    texels = TexelSet(scene, charts.find(scene, 4.0f), TexelOrder::zigzag);
     texels.findBuried(scene, *rays);
     neighbours.find(scene, *rays, texels);
   }

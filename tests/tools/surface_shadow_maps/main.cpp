@@ -43,7 +43,7 @@ struct Texels {
   Texels(const fs::path& file, float texel, TexelOrder order) {
     update(scene, loadGltf(file).scene, SceneChanges::all());
     rays = std::make_unique<RayCaster>(scene);
-    set = TexelSet(scene, charts.find(scene, {1.0f / texel}), order);
+    set = TexelSet(scene, charts.find(scene, 1.0f / texel), order);
     set.findBuried(scene, *rays);
     tree = TexelTree(set);
   }
