@@ -78,6 +78,7 @@ class Surveyor {
   Surveyor(const RenderScene& scene, const RayCaster& rays)
       : scene_(scene), rays_(rays), directions_(evenDirections()) {}
 
+  const Bounds& level() const { return scene_.bounds; }
   // Rays start a little before the place, so that they meet a surface on which it lies.
   Surroundings around(const vec3& place, float padding) const {
     const float before = std::max(rayEpsilon(place), 0.01f * padding);
@@ -133,6 +134,12 @@ class Placement {
   Probe place() const {
     const Surroundings here = surveyor_.around(home_, padding_);
     const ProbeState state = here.state(padding_);
+    if (isBeside(home_)) {
+      const vec3 in = inLevel();
+      const auto found =
+          isInReach(in) ? walk(in, surveyor_.around(in, padding_)) : std::optional<Probe>();
+      return found ? *found : probeAt(home_, ProbeState::outside, here);
+    }
     if (state == ProbeState::valid || state == ProbeState::outside)
       return probeAt(home_, state, here);
     std::optional<Probe> found = besideWalls(here);
@@ -146,6 +153,20 @@ class Placement {
   }
   // A little more than the padding, so that rounding does not undo it.
   float wanted() const { return 1.01f * kMargin * padding_; }
+  // Above the level things move, but not beside or below it.
+  bool isBeside(const vec3& place) const {
+    const Bounds& level = surveyor_.level();
+    const vec3 low = place - level.min, high = level.max - place;
+    return std::min({low.x, low.y, low.z, high.x, high.z}) < -1e-3f * reach_;
+  }
+  // The nearest place that is as far from the bounds of the level as probes are from surfaces.
+  vec3 inLevel() const {
+    const Bounds& level = surveyor_.level();
+    const vec3 inset = glm::min(vec3(wanted()), 0.5f * level.extent());
+    vec3 place = glm::clamp(home_, level.min + inset, level.max - inset);
+    if (home_.y > place.y) place.y = home_.y;
+    return place;
+  }
   bool isInReach(const vec3& place) const {
     const vec3 moved = glm::abs(place - home_);
     return std::max({moved.x, moved.y, moved.z}) <= reach_;
@@ -177,6 +198,7 @@ class Placement {
   std::optional<Probe> walk(vec3 place, Surroundings found) const {
     for (int step = 0; step <= kSteps; ++step) {
       const ProbeState state = found.state(padding_);
+      if (state == ProbeState::valid && isBeside(place)) break;
       if (state == ProbeState::valid) return probeAt(place, state, found);
       if (state == ProbeState::outside || (state == ProbeState::inside && found.backs == 0)) break;
       if (state == ProbeState::inside) {

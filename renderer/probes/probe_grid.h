@@ -60,14 +60,15 @@ ProbeGrid probeNodes(const Bounds& bounds, const ProbeGridOptions& options);
 
 // Finds place and state of one node by 64 rays, and by as many from each place that is tried.
 //
-// A ray counts as a back hit if the first surface that it meets is the back of one whose back no
-// camera sees (RenderScene::backIsUnseen), and no front lies in the same place; other hits are
-// front hits. In this order a place is
-// - outside, if no ray has a front hit and at most a quarter of them have back hits (they miss),
-// - inside, if more than a quarter of the hits are back hits, or if a back is nearer than the
-//   padding and nearer than every front,
-// - near, if a front is nearer than the padding,
-// - valid otherwise.
+// A back hit is a ray that first meets the back of a surface whose back no camera sees
+// (RenderScene::backIsUnseen), without a front in the same place; other hits are front hits.
+// A place is
+// - outside, if it is beside or below the bounds of the level; or if no ray has a front hit and at
+//   most a quarter of them have back hits: they miss;
+// - else inside, if more than a quarter of the hits are back hits, or a back is within the padding
+//   and nearer than all fronts;
+// - else near, if a front is within the padding; else valid.
+// A node beside the level is tried in it instead, if that is within half the spacing.
 // A node that is near or inside is tried on both sides of up to three surfaces within the padding
 // that meet at an angle, at the distance of the padding from them; of valid places the one is taken
 // from which fewest rays meet nothing, so that a node in a wall belongs to the room. Otherwise, and

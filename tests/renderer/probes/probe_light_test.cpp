@@ -236,7 +236,7 @@ TEST_P(ProbesOfLevel, HaveTheLightOfTheReference) {
   for (const Probe& p : grid.probes)
     if (p.isValid()) valid.push_back(p.position);
   for (size_t i = 0; i < 6; ++i) places.push_back(valid.at((2 * i + 1) * valid.size() / 12));
-  const Difference found = differenceFromReference(world.scene(), *world.rays(), places, 4096);
+  const Difference found = differenceFromReference(world.scene(), *world.rays(), places, 16384);
   record(found);
   EXPECT_LT(found.bands, 0.03);
   // Light of one direction alone has 12.3% outside of these bands, any other less.
