@@ -58,8 +58,8 @@ recording() {  # recording NAME
   fi
 }
 
-# For light on surfaces: the emulator traces some 100,000 rays a second.
-few_rays=(--set gather_rays=16 --set coarse_edge=1)
+# For light on surfaces and along links: the emulator traces some 100,000 rays a second.
+few_rays=(--set gather_rays=16 --set coarse_edge=1 --set texel=1 --set link_error=5)
 
 rays assets/scenes/default.gltf 60000
 rays assets/scenes/pillar_room.gltf 60000

@@ -34,6 +34,11 @@ std::vector<vec4> emissionOfLamp(const RenderScene& scene, uint32_t object) {
   constexpr uint32_t kPoints = 1024, kLeastPoints = 16, kPointSet = 0x1a3b;
   const RenderObject& o = scene.objects[object];
   std::vector<vec4> sums(FieldSurface::kLampPlaces, vec4(0.0f));
+  const Material& material = scene.materials[static_cast<size_t>(o.material)];
+  if (material.emissiveTexture.texture == kNone) {
+    const vec4 even = sending(surfaceAt(scene, object, 0, 0.0f, 0.0f).emission);
+    return std::vector<vec4>(FieldSurface::kLampPlaces, even);
+  }
   const uint32_t points = std::max(kLeastPoints, kPoints / std::max(o.triangleCount(), 1u));
   for (uint32_t t = 0; t < o.triangleCount(); ++t) {
     const uint32_t* i = &scene.indices[o.firstIndex + 3 * t];

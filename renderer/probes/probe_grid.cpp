@@ -21,8 +21,8 @@ constexpr int kSteps = 6;
 constexpr float kMargin = 1.05f;
 // Of the spacing: moved places stay so near to their node along each axis.
 constexpr float kReach = 0.5f;
-constexpr size_t kMostWalls = 3;  // around a place
-constexpr float kAlike = 0.7f;    // normals whose cosine is larger are those of one wall
+constexpr size_t kMostWallsOfNode = 3;  // around a place
+constexpr float kAlike = 0.7f;          // normals whose cosine is larger are those of one wall
 // Less of the rays meets nothing on the other side of a surface: it is that of the level.
 constexpr float kLessOpen = 0.1f;
 // Surfaces that are so near to each other, relative to their distance, are in the same place.
@@ -177,7 +177,7 @@ class Placement {
   std::optional<Probe> besideWalls(const Surroundings& here) const {
     std::vector<Surroundings::Plane> walls;
     for (const Surroundings::Plane& plane : here.planes)
-      if (walls.size() < kMostWalls && std::ranges::none_of(walls, [&](const auto& wall) {
+      if (walls.size() < kMostWallsOfNode && std::ranges::none_of(walls, [&](const auto& wall) {
             return std::abs(glm::dot(wall.away, plane.away)) > kAlike;
           }))
         walls.push_back(plane);

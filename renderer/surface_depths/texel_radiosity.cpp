@@ -148,6 +148,7 @@ void TexelRadiosity::bounce() {
     tree_.pull(radiosity_, byNode);
     links_.gather(byNode, irradiance_);
   }
+  isLit_ = light_.isDone();
   ++version_;
 }
 

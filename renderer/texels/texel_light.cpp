@@ -22,7 +22,7 @@ void TexelLight::outdate(const TexelMoves& moves, bool haveTexelsMoved) {
   for (Column& column : columns_) {
     const bool isCurrent = column.since == Since::move && !haveTexelsMoved;
     column.isKept = column.since == Since::rest && column.known == column.factors.size();
-    column.factors = moves.carried(column.factors);
+    if (!column.factors.empty()) column.factors = moves.carried(column.factors);
     if (!isCurrent) column.first = column.known = 0;
     column.since = Since::rest;
   }
@@ -33,8 +33,7 @@ void TexelLight::outdate(const TexelMoves& moves, bool haveTexelsMoved) {
 
 uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                             const TexelSet& texels, std::span<const uint32_t> movedObjects,
-                            uint32_t seed, uint64_t most,
-                            bool withoutSurfaces) {
+                            uint32_t seed, uint64_t most, bool withoutSurfaces) {
   changed_ = false;
   if (texels.size() == 0) {
     columns_.clear();
@@ -67,15 +66,17 @@ uint64_t TexelLight::update(const RenderScene& scene, const RayCaster& rays, con
       changed_ = true;
       column.since = movedObjects.empty() ? Since::rest : Since::move;
     }
-    column.factors.resize(texels.size(), vec3(0.0f));
+    const bool isLeftOut = withoutSurfaces && light.kind == EmitterKind::surface;
+    column.factors.resize(isLeftOut ? 0 : texels.size(), vec3(0.0f));
+    if (isLeftOut) column.first = column.known = 0;
   }
   std::atomic<uint64_t> traced = 0;
   for (size_t e = 0; e < columns_.size() && traced < most; ++e) {
     Column& column = columns_[e];
+    if (column.factors.empty()) continue;  // left out
     const EmitterFactor factor(scene, lights, e, column.id, seed);
-    const bool isLeftOut = withoutSurfaces && lights.emitters()[e].kind == EmitterKind::surface;
     const bool isPoint = lights.emitters()[e].kind == EmitterKind::punctual;
-    const size_t raysOfTexel = factor.isSampled() && !isLeftOut ? (isPoint ? 1 : kRays) : 0;
+    const size_t raysOfTexel = factor.isSampled() ? (isPoint ? 1 : kRays) : 0;
     if (raysOfTexel == 0) column.known = texels.size();
     if (column.known == texels.size()) continue;
     const size_t end =
@@ -134,7 +135,8 @@ void TexelLight::sum(const LightSet& lights, std::vector<vec3>& out) const {
   tbb::parallel_for(size_t{0}, out.size(), [&](size_t t) {
     out[t] = skyLight_.size() > t ? sky * skyLight_[t] : vec3(0.0f);
     for (size_t e = 0; e < columns_.size(); ++e)
-      out[t] += lights.emitters()[e].brightness() * columns_[e].factors[t];
+      if (!columns_[e].factors.empty())
+        out[t] += lights.emitters()[e].brightness() * columns_[e].factors[t];
   });
 }
 

@@ -72,13 +72,12 @@ void printTable(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
     Level level(loadGltf(file).scene);
     // Charts may be on disk or not: not counted.
+    level.settle(partnersOnly(FieldSightChoice::lines));
+    // Texels of the same side, and next to no directions.
     LightFieldOptions few = partnersOnly(FieldSightChoice::lines);
     few.divisions = 1;
-    level.settle(few);
-    level.field.forget();
-    RenderSceneChanges all;
-    all.rebuilt = true;
-    level.field.outdate(all);
+    few.texel = level.field.texelSide();
+    few.memory = size_t{1} << 40;
     const double prepared = level.settle(few);
     LightFieldOptions lines = partnersOnly(FieldSightChoice::lines);
     const double byLines = level.settle(lines) - prepared;
