@@ -14,7 +14,7 @@ TEST_F(ViewMenu, EveryViewIsListedAndCanBeChosen) {
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
     click("menu/View");
-    if (isOfEngine(info.view)) click("menu/Engine");
+    if (isOfEngine(info.view)) click(info.method.empty() ? "menu/Engine" : "menu/Method");
     click(std::string("menu/view.") + info.name);
     EXPECT_EQ(view(), info.view);
     EXPECT_NE(shows("status/view"), info.view == DebugView::lit);

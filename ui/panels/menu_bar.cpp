@@ -16,21 +16,24 @@ struct Menu {
   std::vector<std::string> first;
 };
 
-constexpr const char *kEngineMenu = ">Engine", *kSplitMenu = ">Compare";
+constexpr const char *kEngineMenu = ">Engine", *kMethodMenu = ">Method", *kSplitMenu = ">Compare";
 
 std::vector<std::string> viewActions() {
   std::vector<std::string> names;
   const auto add = [&](std::initializer_list<const char*> more) {
     names.insert(names.end(), more.begin(), more.end());
   };
-  const auto addViews = [&](bool engine) {
+  const auto addViews = [&](bool engine, bool method) {
     for (const DebugViewInfo& info : debugViews())
-      if (isOfEngine(info.view) == engine) names.push_back(std::string("view.") + info.name);
+      if (isOfEngine(info.view) == engine && info.method.empty() != method)
+        names.push_back(std::string("view.") + info.name);
   };
-  addViews(false);
+  addViews(false, false);
   add({kEngineMenu});
-  addViews(true);
-  add({"view.choose_light", "view.choose_vpl", "<", "-"});
+  addViews(true, false);
+  add({"view.choose_light", "view.choose_vpl", "<", kMethodMenu});
+  addViews(true, true);
+  add({"<", "-"});
   add({"view.false_colour_unit", "view.false_colour_range", "-"});
   add({"view.vpls", "view.probes", "view.probe_grid", "view.probe", "view.histogram"});
   add({"view.tone_mapper", "-", "split.on"});
