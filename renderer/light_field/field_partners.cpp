@@ -18,8 +18,8 @@ constexpr float kGrazing = 0.03f;
 // A crossing so near in front of the own plane is of the own surface [cells].
 constexpr float kOwnDepth = 0.1f;
 // The own surface is at the middle of the cell if it is crossed there so near behind the own plane:
-// curved surfaces leave it [cells].
-constexpr float kOwnBehind = 1.0f;
+// curved surfaces leave it, and what they hide may be behind a wall [cells].
+constexpr float kOwnBehind = 0.1f;
 
 // Traces rays eight at a time, in the order in which they come.
 class RayBatch {

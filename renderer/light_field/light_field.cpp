@@ -6,20 +6,17 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/low_discrepancy.h"
+#include "renderer/light_field/field_sources.h"
 #include "renderer/scene/light_linking.h"
-#include "renderer/scene/surface.h"
 
 namespace lamplighter {
 namespace {
 
 // Memory of a texel besides its partners, about [bytes].
 constexpr size_t kTexelBytes = 400;
-// Lines cost as much as rays where a texel has so many triangles (README).
-constexpr size_t kTrianglesATexel = 32;
-// Places of a direction's part of the sphere at which the sky is taken.
-constexpr uint32_t kSkyPlaces = 32;
-constexpr uint32_t kSkyPlaceSet = 0x51ce;
+// Lines cost as much as rays where a texel has about so many triangles
+// (docs/results/light_field.md: the bathroom has 13).
+constexpr size_t kTrianglesATexel = 16;
 // Seeds of the turns of sets with different seeds do not meet.
 constexpr uint32_t kSeedsASet = 0x100000;
 
@@ -29,45 +26,9 @@ size_t directionsOf(const LightFieldOptions& options) {
 
 vec4 sending(const vec3& radiance) { return {radiance, 0.0f}; }
 
-// Of the places of an area light: the mean over some points of each.
-std::vector<vec4> emissionOfLamp(const RenderScene& scene, uint32_t object) {
-  constexpr uint32_t kPoints = 1024, kLeastPoints = 16, kPointSet = 0x1a3b;
-  const RenderObject& o = scene.objects[object];
-  std::vector<vec4> sums(FieldSurface::kLampPlaces, vec4(0.0f));
-  const Material& material = scene.materials[static_cast<size_t>(o.material)];
-  if (material.emissiveTexture.texture == kNone) {
-    const vec4 even = sending(surfaceAt(scene, object, 0, 0.0f, 0.0f).emission);
-    return std::vector<vec4>(FieldSurface::kLampPlaces, even);
-  }
-  const uint32_t points = std::max(kLeastPoints, kPoints / std::max(o.triangleCount(), 1u));
-  for (uint32_t t = 0; t < o.triangleCount(); ++t) {
-    const uint32_t* i = &scene.indices[o.firstIndex + 3 * t];
-    for (uint32_t k = 0; k < points; ++k) {
-      vec2 w = sobol2(k, kPointSet + t);  // weights of the second and third corner
-      if (w.x + w.y > 1.0f) w = 1.0f - w;
-      const vec2 uv =
-          (1.0f - w.x - w.y) * scene.uv0[i[0]] + w.x * scene.uv0[i[1]] + w.y * scene.uv0[i[2]];
-      const glm::ivec2 at = glm::clamp(glm::ivec2(static_cast<float>(FieldSurface::kLampSide) * uv),
-                                       0, FieldSurface::kLampSide - 1);
-      sums[static_cast<size_t>(at.y * FieldSurface::kLampSide + at.x)] +=
-          vec4(surfaceAt(scene, object, t, w.x, w.y).emission, 1.0f);
-    }
-  }
-  for (vec4& sum : sums) sum = sum.w > 0.0f ? sending(vec3(sum) / sum.w) : vec4(0.0f);
-  return sums;
-}
-
-// Mean over the area of a texel of an emissive surface.
-vec3 emissionOf(const RenderScene& scene, const SurfaceTexel& texel) {
-  const uint32_t triangles = scene.objects[texel.object].triangleCount();
-  vec3 sum(0.0f);
-  for (const SurfacePlace& place : texel.spread) {
-    const bool isBack = place.triangle >= triangles;
-    const Surface s =
-        surfaceAt(scene, texel.object, place.triangle - (isBack ? triangles : 0), place.u, place.v);
-    if (!isBack || s.emitsBothSides) sum += s.emission;
-  }
-  return sum / static_cast<float>(texel.spread.size());
+bool changesOnlyPlaces(RenderSceneChanges changes) {
+  changes.movedObjects.clear();
+  return changes.none() && !changes.references;
 }
 
 }  // namespace
@@ -165,6 +126,7 @@ void LightField::update(const RenderScene& scene, Services& services,
   other.showsSky = options_.showsSky;
   other.showsBounces = options_.showsBounces;
   if (other != options_) ground_.restart();
+  const LightFieldOptions former = options_;
   const bool isSame = options == options_ && changes.none() && ground_.version() > 0;
   if (isSame && isDone()) return;
   if (directions_.size() != directionsOf(options) || options.seed != options_.seed)
@@ -173,8 +135,10 @@ void LightField::update(const RenderScene& scene, Services& services,
   const RayCaster& rays = services.rays();
   if (!isSame) {
     lights_ = LightSet(scene, lights_);
-    isLit_ = false;
-    hasSources_ = hasSources_ && !changes.sky && !changes.gains && !options.withLamps;
+    // While objects move, light is found anew only where lamps did.
+    isLit_ = isLit_ && options == former && changesOnlyPlaces(changes);
+    hasSources_ = hasSources_ && !changes.sky && !changes.gains &&
+                  (!options.withLamps || changesOnlyPlaces(changes));
   }
   takeGeometry(scene, services, changes);
   // A ray takes as long as some samples.
@@ -193,59 +157,8 @@ void LightField::update(const RenderScene& scene, Services& services,
                   (sourceSums_.size() + bounceSums_.size() + setSums_.size()) * sizeof(vec4);
 }
 
-// What the sky sends from the part of the sphere of each direction, without its suns; then of the
-// opposite ones [W/(m² sr)].
-std::vector<vec4> LightField::skyOf(const FieldDirections& directions) const {
-  std::vector<vec4> out(2 * directions.size(), vec4(0.0f));
-  if (skyBrightness() == vec3(0.0f)) return out;
-  tbb::parallel_for(size_t{0}, out.size(), [&](size_t end) {
-    const size_t d = end % directions.size();
-    const float radius = std::sqrt(directions.weightOf(d) / kPi);
-    const Frame frame(end == d ? directions[d] : -directions[d]);
-    vec3 sum(0.0f);
-    for (uint32_t k = 0; k < kSkyPlaces; ++k) {
-      const vec2 u = sobol2(k, kSkyPlaceSet);
-      const float far = radius * std::sqrt(u.x), turn = 2.0f * kPi * u.y;
-      const vec3 at =
-          glm::normalize(frame.toWorld({far * std::cos(turn), far * std::sin(turn), 1.0f}));
-      sum += lights_.referenceSky().withoutSuns(at) / lights_.skyReference();
-    }
-    out[end] = sending(skyBrightness() * sum / static_cast<float>(kSkyPlaces));
-  });
-  return out;
-}
-
-vec3 LightField::skyBrightness() const {
-  if (lights_.unitSky().isBlack()) return vec3(0.0f);
-  for (const Emitter& e : lights_.emitters())
-    if (e.kind == EmitterKind::sky && e.skySun == 0) return e.brightness();
-  return vec3(0.0f);
-}
-
 vec3 LightField::skyTowards(const vec3& direction) const {
-  if (!options_.showsSky || skyBrightness() == vec3(0.0f)) return vec3(0.0f);
-  return skyBrightness() * lights_.referenceSky().withoutSuns(direction) / lights_.skyReference();
-}
-
-// What is sent without a bounce.
-void LightField::findSources(const RenderScene& scene) {
-  sources_.assign(receivers_.size(), vec4(0.0f));
-  const std::vector<vec4> sky = skyOf(directions_);
-  sources_.insert(sources_.end(), sky.begin(), sky.end());
-  sources_.emplace_back(0.0f);  // PartnerNumbers::dark()
-  if (!options_.withLamps) return;
-  for (const uint32_t object : surface_.lamps()) {
-    const std::vector<vec4> lamp = emissionOfLamp(scene, object);
-    sources_.insert(sources_.end(), lamp.begin(), lamp.end());
-  }
-  for (const Emitter& e : lights_.emitters()) {
-    if (e.kind != EmitterKind::surface || scene.objects[e.object].isAreaLight) continue;
-    for (const size_t side : {2 * e.object, 2 * e.object + 1}) {
-      const TexelSet::Part& part = ground_.set().parts()[side];
-      for (uint32_t t = part.first; t < part.first + part.count; ++t)
-        sources_[t] = sending(emissionOf(scene, ground_.set()[t]));
-    }
-  }
+  return options_.showsSky ? skyRadiance(lights_, direction) : vec3(0.0f);
 }
 
 // Sets what texels send: what they reflect of the light of lamps, of the sky and of bounced light,
@@ -267,7 +180,8 @@ void LightField::bounce(const RenderScene& scene) {
     return;
   }
   if (!hasSources_) {
-    findSources(scene);
+    sources_ =
+        fieldSources(scene, lights_, ground_.set(), surface_, options_.withLamps, directions_);
     sourceSums_.assign(receivers_.size(), vec4(0.0f));
     addGathered(receivers_, directions_, rows, sources_, sourceSums_);
     hasSources_ = table_.isDone();
@@ -355,7 +269,8 @@ void LightField::findSets(const RenderScene& scene, const RayCaster& rays, uint6
     if (turned.size() == 0 || first == 0) {
       turned = FieldDirections(options_.divisions, options_.seed + kSeedsASet * set);
       if (options_.showsSky)
-        std::ranges::copy(skyOf(turned), sent.begin() + static_cast<ptrdiff_t>(receivers_.size()));
+        std::ranges::copy(skyOf(lights_, turned),
+                          sent.begin() + static_cast<ptrdiff_t>(receivers_.size()));
     }
     std::vector<PartnerTarget> targets;
     std::vector<PartnerRow> rows;
@@ -377,12 +292,6 @@ void LightField::findSets(const RenderScene& scene, const RayCaster& rays, uint6
 bool LightField::isDone() const {
   return ground_.isCurrent() && isLit_ && table_.isDone() && unseen_.none() &&
          (receivers_.empty() || nextOfSets_ >= directionsOfSets());
-}
-
-float LightField::progress() const {
-  const auto all = static_cast<float>(directions_.size() + directionsOfSets());
-  const float first = table_.shareCurrent() * static_cast<float>(directions_.size());
-  return all > 0.0f ? (first + static_cast<float>(nextOfSets_)) / all : 1.0f;
 }
 
 uint64_t LightField::samplesLeft() const {

@@ -44,9 +44,8 @@ class LightField final : public TexelIrradiance {
               uint64_t mostWork);
 
   bool isDone() const override;
-  // Share of the partners that are those of now: of the first set, and of all.
+  // Share of the partners of the first set that are those of now.
   float prepared() const { return table_.shareCurrent(); }
-  float progress() const;
   // Partners of all sets that are still to be found, about.
   uint64_t samplesLeft() const;
   uint32_t version() const override { return version_; }
@@ -60,7 +59,6 @@ class LightField final : public TexelIrradiance {
   const std::vector<vec3>& reflected() const override { return reflected_; }
   vec3 skyTowards(const vec3& direction) const override;
   const TexelSet& texels() const override { return ground_.set(); }
-  const std::vector<ObjectAtlas>& atlases() const { return ground_.atlases(); }
   // Of the first set.
   const FieldDirections& directions() const { return directions_; }
   std::span<const FieldReceiver> receivers() const { return receivers_; }
@@ -79,7 +77,6 @@ class LightField final : public TexelIrradiance {
   };
   const Counts& counts() const { return counts_; }
   float texelSide() const { return ground_.side(); }  // [m]
-  FieldSight sight() const { return sight_; }
   void forget() { *this = LightField(); }
 
  private:
@@ -92,9 +89,6 @@ class LightField final : public TexelIrradiance {
   size_t directionsOfSets() const {
     return static_cast<size_t>(options_.sets - 1) * directions_.size();
   }
-  std::vector<vec4> skyOf(const FieldDirections& directions) const;
-  void findSources(const RenderScene& scene);
-  vec3 skyBrightness() const;
   void send();
   void bounce(const RenderScene& scene);
   void show();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "renderer/image/metrics.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -24,6 +25,14 @@ struct MethodRoom {
   // Edits the scene only.
   SceneChanges edit(const std::function<void(Scene&)>& change);
   Image edited(const std::function<void(Scene&)>& change) { return picture(edit(change)); }
+  // Settled pictures from nothing, means of 4 × 4 pixels, against 1,024 paths a pixel.
+  Metrics freshAgainstReference();
+  // The picture of a part of the light, from nothing.
+  Image freshPart(LightPart part, bool lightOnly = false);
+  // Edits of brightness and places, and of materials, one after the other: each leaves the bits of
+  // a fresh start, and the first ones together those of before.
+  void expectEditsLeaveFreshBits();
+  void expectMaterialEditsLeaveFreshBits();
 
   std::string method, statistic;
   Scene scene;

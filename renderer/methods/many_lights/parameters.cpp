@@ -51,7 +51,7 @@ const ParameterTable<P>& manyLightsParameters() {
        "trace no rays for it. imperfect: 1,024 samples of it are chosen for each view, with shadow "
        "maps of points (method imperfect_shadow_maps); nothing is prepared, however large the "
        "level "
-       "is. field: texels exchange light with all that they see in 513 directions (method "
+       "is. field: texels exchange light with what they see in a fixed set of directions (method "
        "light_field), with the sky as well. automatic: on the cpu backend links in rooms without "
        "sky and gloss whose surfaces are "
        "larger than texels, imperfect in levels of very many triangles without a sky, otherwise "

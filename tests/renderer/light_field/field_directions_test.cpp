@@ -53,10 +53,12 @@ TEST(FieldDirections, SumsOfCosinesAreNearPi) {
             static_cast<double>(directions.weightOf(d) * std::abs(glm::dot(normal, directions[d])));
       most = std::max(most, std::abs(sum / static_cast<double>(kPi) - 1.0));
     }
+    ::testing::Test::RecordProperty("error" + std::to_string(directions.size()),
+                                    std::to_string(most));
     return most;
   };
-  EXPECT_LT(worst(8), 0.01);    // 129 directions
-  EXPECT_LT(worst(16), 0.003);  // 513
+  EXPECT_LT(worst(8), 0.006);    // 129 directions
+  EXPECT_LT(worst(16), 0.0015);  // 513
 }
 
 TEST(FieldDirections, TriplesAreAroundTheDirection) {
@@ -65,7 +67,7 @@ TEST(FieldDirections, TriplesAreAroundTheDirection) {
     const vec3 d = uniformDirection(i);
     const FieldDirections::Triple triple = directions.tripleOf(d);
     vec3 mean(0.0f);
-    float sum = 0.0f;
+    float sum = 0.0f, longest = 0.0f;
     for (size_t k = 0; k < 3; ++k) {
       EXPECT_GE(triple.weights[k], 0.0f);
       sum += triple.weights[k];
@@ -75,7 +77,11 @@ TEST(FieldDirections, TriplesAreAroundTheDirection) {
       }
     }
     EXPECT_NEAR(sum, 1.0f, 1e-5f);
-    EXPECT_GT(glm::dot(glm::normalize(mean), d), std::cos(0.03f));
+    // The map is curved: the weights are not those of the flat triangle, but near them.
+    for (size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, glm::distance(endOf(directions, triple, k),
+                                                endOf(directions, triple, (k + 1) % 3)));
+    EXPECT_LT(glm::distance(glm::normalize(mean), d), 0.25f * longest);
   }
 }
 

@@ -63,7 +63,7 @@ TEST(FieldPartners, SentLightIsReceived) {
     if (!room.receivers[t].isBuried)
       received += static_cast<double>(room.texels[t].area * irradiance[t].x);
   RecordProperty("receivedToSent", std::to_string(received / sent));
-  EXPECT_NEAR(received / sent, 1.0, 0.005);
+  EXPECT_NEAR(received / sent, 1.0, 0.001);
 }
 
 TEST(FieldPartners, LinesSeeWhatRaysSee) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
 #include "tests/support/method_room.h"
 
@@ -24,11 +23,7 @@ TEST(SurfaceShadowMaps, IsNearTheReference) {
   room.settings.set("texel", 0.2f);
   room.settings.set("depth_resolution", 32);
   room.settings.set("antialias", 16);
-  const Image shown = averageBlocks(room.fresh(), 4);
-  const Image reference = averageBlocks(test::renderReference(room.scene, room.view, 1024, 2), 4);
-  const Metrics m = compareImages(shown, reference);
-  RecordProperty("relRmse", std::to_string(m.relRmse));
-  RecordProperty("bias", std::to_string(m.bias));
+  const Metrics m = room.freshAgainstReference();
   EXPECT_LT(m.relRmse, 0.05);
   EXPECT_LT(std::abs(m.bias - 1.0), 0.03);
 }
@@ -43,21 +38,7 @@ TEST(SurfaceShadowMaps, StoredVisibilityShowsWhatRaysShow) {
 
 TEST(SurfaceShadowMaps, EditsLeaveTheBitsOfAFreshStart) {
   BouncedRoom room;
-  const Image before = room.picture(SceneChanges::all());
-  const Image dimmed =
-      room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance *= vec3(0.5f, 0.7f, 0.1f); });
-  EXPECT_TRUE(test::sameBits(dimmed, room.fresh()));
-  room.edited([&](Scene& s) { s.find(room.lamp)->area->radiance = vec3(5.0f); });
-  const Image lampMoved =
-      room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x += 0.5f; });
-  EXPECT_TRUE(test::sameBits(lampMoved, room.fresh()));
-  room.edited([&](Scene& s) { s.find(room.lamp)->local.translation.x -= 0.5f; });
-  const Image boxMoved =
-      room.edited([&](Scene& s) { s.find(room.box)->local.translation.z += 0.5f; });
-  EXPECT_TRUE(test::sameBits(boxMoved, room.fresh()));
-  const Image back = room.edited([&](Scene& s) { s.find(room.box)->local.translation.z -= 0.5f; });
-  EXPECT_TRUE(test::sameBits(back, room.fresh()));
-  EXPECT_TRUE(test::sameBits(back, before));
+  room.expectEditsLeaveFreshBits();
 }
 
 // The light of before stays, and moves with the object, until its links are found anew.
@@ -92,14 +73,7 @@ TEST(SurfaceShadowMaps, AnObjectThatMovesKeepsItsLight) {
 
 TEST(SurfaceShadowMaps, EditsOfMaterialsLeaveTheBitsOfAFreshStart) {
   BouncedRoom room;
-  room.picture(SceneChanges::all());
-  const Image coloured = room.edited([](Scene& s) { s.materials[1].baseColor.g = 0.7f; });
-  EXPECT_EQ(room.count, 0.0);
-  EXPECT_TRUE(test::sameBits(coloured, room.fresh()));
-  const Image sided = room.edited([](Scene& s) { s.materials[1].doubleSided = true; });
-  EXPECT_TRUE(test::sameBits(sided, room.fresh()));
-  const Image clear = room.edited([](Scene& s) { s.materials[1].transmission = 1.0f; });
-  EXPECT_TRUE(test::sameBits(clear, room.fresh()));
+  room.expectMaterialEditsLeaveFreshBits();
 }
 
 // With rays nothing waits for depths.

@@ -1,0 +1,38 @@
+// Light that texels of the surface keep, added to a picture: what LinkedPicture and FieldPicture
+// share.
+#pragma once
+
+#include "renderer/methods/atlas_picture.h"
+
+namespace lamplighter {
+
+// `Light`: a TexelIrradiance that takes the changes of each frame by outdate().
+template <typename Light>
+class TexelPicture {
+ public:
+  // To be called with each frame, also with those that do not show the light.
+  void outdate(const FrameInputs& in) {
+    scene_ = &in.scene;
+    rays_ = &in.services.rays();
+    light_.outdate(in.changes);
+    picture_.outdate(in);
+  }
+  // `picture` plus the light; see AtlasPicture::addTo().
+  std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
+                                       const std::shared_ptr<RadianceImage>& picture, int antialias,
+                                       const SurfacePictureOptions& options, uint32_t seed,
+                                       bool& gbufferIsCurrent) {
+    return picture_.addTo(in, picture, light_, antialias, options, seed, gbufferIsCurrent);
+  }
+  bool isDone(int antialias) const { return light_.isDone() && picture_.isDone(antialias); }
+  const Light& light() const { return light_; }
+
+ protected:
+  Light light_;
+  AtlasPicture picture_;
+  // Of this frame.
+  const RenderScene* scene_ = nullptr;
+  const RayCaster* rays_ = nullptr;
+};
+
+}  // namespace lamplighter
