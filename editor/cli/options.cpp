@@ -51,8 +51,10 @@ Settings settingsOf(const MethodFlags& flags, const MethodInfo& method) {
   // Nobody sees the frames in between, so each frame does all updates. The settled picture is the
   // same.
   if (has(method, "updates")) settings.set("updates", kAllAtOnce);
-  // Refinement of a settled picture takes time, so it is off unless it is requested.
-  if (has(method, "refine")) settings.set("refine", 0);
+  // Refinement and repair of a settled picture take time, so they are off unless they are
+  // requested.
+  for (const char* name : {"refine", "repair"})
+    if (has(method, name)) settings.set(name, 0);
   if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
   applyFlags(settings, flags, method);
   return settings;

@@ -28,6 +28,7 @@ const std::vector<Row>& rows() {
       {p["antialias"], 1, 16},
       {p["corner_light"], false, true},
       {p["refine"], 0, 1 << 20},
+      {p["repair"], 0, 4096},
       {sampleParameters()["samples_per_pixel"], 16, 1024},
   };
   return all;
@@ -51,7 +52,7 @@ const std::vector<Preset>& presets() {
            "The defaults: fast enough to drag lights, accurate enough to judge them.",
            [](const Row& row) { return row.spec.defaultValue; }),
       made("final", "Final",
-           "Many light samples, fine shadows, antialiasing and refinement at rest: highest "
+           "Many light samples, fine shadows, antialiasing and long repair at rest: highest "
            "accuracy, slowest response to edits.",
            [](const Row& row) { return row.final; }),
   };

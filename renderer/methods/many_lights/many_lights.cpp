@@ -62,6 +62,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   addLinks(in, options, stages, out, stats);
   addField(in, options, stages, out, stats);
   addImperfect(in, options, stages, out, stats);
+  repair(in, options, stages, out, stats);
   if (!options.carrierReason.empty()) stats.chosen["indirect"] = options.carrierReason;
   out.stats = published(stats, manyLightsStatistics());
   return out;

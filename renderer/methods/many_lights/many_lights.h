@@ -21,6 +21,7 @@
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/methods/many_lights/statistics.h"
 #include "renderer/methods/stage_timer.h"
+#include "renderer/path_repair/path_repair.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/sampling/choice/lamp_importance.h"
 #include "renderer/sampling/choice/point_visibility.h"
@@ -91,6 +92,8 @@ class ManyLights final : public GiMethod {
              ManyLightsStats& stats) const;
   void refine(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
               ManyLightsStats& stats);
+  void repair(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
+              ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
                                              const std::shared_ptr<RadianceImage>& picture,
                                              bool isSmooth, StageTimer& stages);
@@ -147,10 +150,12 @@ class ManyLights final : public GiMethod {
   LiveBiasCompensation corners_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;
-  BouncedPicture meshes_;       // with indirect = meshes
-  LinkedPicture linked_;        // with indirect = links
-  FieldPicture field_;          // with indirect = field
-  ImperfectPicture imperfect_;  // with indirect = imperfect
+  PathRepair repair_;
+  std::shared_ptr<RadianceImage> unrepaired_;  // of the last frame
+  BouncedPicture meshes_;                      // with indirect = meshes
+  LinkedPicture linked_;                       // with indirect = links
+  FieldPicture field_;                         // with indirect = field
+  ImperfectPicture imperfect_;                 // with indirect = imperfect
 };
 
 MethodInfo manyLightsInfo();

@@ -50,6 +50,7 @@ class ConvergenceMeterTest : public test::SessionFixture {
     render.values.set("updates", updates);
     render.values.set("frame_time", 0.0f);
     render.values.set("refine", refine);
+    render.values.set("repair", 0);
     session_.editing().setInitialRender(render);
     do {
       session_.renderFrame();

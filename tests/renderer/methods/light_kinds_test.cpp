@@ -138,6 +138,7 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   settings.set("updates", 4096);
   settings.set("antialias", 4);
   settings.set("refine", 8192);
+  settings.set("repair", 0);
   FrameRenderer renderer(makeCpuBackend());
   GiOutput out;
   SceneChanges changes = SceneChanges::all();

@@ -24,6 +24,7 @@ struct RefinementGl : test::GlTest {
     settings.set("vpls", 100);
     settings.set("indirect", std::string("samples"));
     settings.set("refine", 2000);
+    settings.set("repair", 0);
   }
 
   Image refined(FrameRenderer& renderer, const SceneChanges& changes) {

@@ -36,6 +36,7 @@ struct Refined : testing::Test {
     settings.set("antialias", 4);
     settings.set("map_resolution", 32);
     settings.set("refine", 4096);
+    settings.set("repair", 0);
   }
 
   GiOutput step(const SceneChanges& changes = {}, bool refines = true) {

@@ -71,10 +71,12 @@ TEST(Registry, MethodsMeasureTheStagesThatTheyDeclare) {
     if (!problemOf(method, renderer.backend()).empty()) continue;
     settings.reset("share_memory");
     settings.reset("indirect");
+    settings.set("repair", 0);
     std::vector<StageTime> measured;
     SceneChanges changes = SceneChanges::all();
     for (int i = 0; i < 80; ++i) {
       // Without light shares a picture is antialiased as a whole.
+      if (i == 30) settings.set("repair", 64);
       if (i == 40) settings.set("share_memory", 0);
       if (i == 70) settings.set("indirect", std::string("meshes"));
       const GiStats stats =

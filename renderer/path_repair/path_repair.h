@@ -1,0 +1,53 @@
+// Repairs a settled picture by paths of the reference: it shows the picture plus what the paths
+// find missing, as far as their noise allows to tell. It converges to the reference.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "renderer/methods/gi_method.h"
+#include "renderer/methods/path_tracer/path_tracer.h"
+#include "renderer/path_repair/repair_guides.h"
+#include "renderer/path_repair/residual_filter.h"
+
+namespace lamplighter {
+
+class PathRepair {
+ public:
+  struct Options {
+    int paths = 0;  // for each pixel; 0: off
+    PathTracerOptions path;
+  };
+
+  void restart();
+  // Does work that takes as long as at most `most` rows of paths. `live`: the settled picture, the
+  // same with the same options in each call until restart(). Returns the work. Draws the G-buffer
+  // in the first call.
+  int goOn(const FrameInputs& in, const Options& options,
+           const std::shared_ptr<RadianceImage>& live, int most);
+
+  bool isDone(const Options& options) const;
+  int paths() const { return paths_; }  // of each pixel
+  uint64_t takeRays() { return std::exchange(rays_, 0); }
+  // Null until there is one. Its bits depend on the number of paths alone.
+  const std::shared_ptr<RadianceImage>& image() const { return repaired_; }
+
+ private:
+  void begin(const FrameInputs& in, const Options& options,
+             const std::shared_ptr<RadianceImage>& live);
+  int tracePaths(const FrameInputs& in, const Options& options, int most);
+  int filter();
+
+  std::shared_ptr<RadianceImage> live_;  // null: not begun
+  RepairGuides guides_;
+  LightSet lights_;
+  Image first_, second_;  // sums of the paths of both halves
+  int paths_ = 0;         // whole ones
+  int row_ = 0;           // from which on the next paths are missing
+  int shown_ = 0;         // paths of repaired_
+  std::unique_ptr<ResidualFilter> filter_;
+  uint64_t rays_ = 0;
+  std::shared_ptr<RadianceImage> repaired_;
+};
+
+}  // namespace lamplighter

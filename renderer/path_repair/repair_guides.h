@@ -1,0 +1,25 @@
+// What a pixel shows, by which a residual is shared among pixels.
+#pragma once
+
+#include <vector>
+
+#include "renderer/backends/gbuffer_view.h"
+#include "renderer/scene/camera.h"
+
+namespace lamplighter {
+
+struct RepairGuides {
+  int width = 0, height = 0;
+  // By pixel; world space. Zero normals where the sky or a lamp is seen: such a pixel shares with
+  // no other.
+  std::vector<vec3> position;  // [m]
+  std::vector<vec3> normal;
+  std::vector<vec3> albedo;      // by which the residual is divided: never 0
+  std::vector<float> footprint;  // side of a pixel at its distance [m]
+
+  RepairGuides() = default;
+  // `white`: surfaces are shown white.
+  RepairGuides(const GBufferView& gbuffer, const View& view, bool white);
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,165 @@
+// Settled pictures of many_lights, repaired by paths.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "renderer/image/average_blocks.h"
+#include "renderer/image/metrics.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+using test::sameBits;
+
+constexpr int kBounces = 2;
+
+struct Repaired : testing::Test {
+  Scene scene;
+  NodeId box = kNoNode, lamp = kNoNode;
+  View view = test::lookAt(vec3(1.2f, 1.6f, 1.3f), vec3(-0.4f, 0.7f, -0.5f), 64, 48, 1.1f);
+  Settings settings;
+  std::string method = "many_lights";
+  std::unique_ptr<FrameRenderer> renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
+  int rows = 64;  // of paths, in a frame
+
+  Repaired() {
+    const int white = test::addMaterial(scene, vec3(0.7f, 0.6f, 0.5f));
+    test::addMesh(scene, test::roomMesh(vec3(3, 2.4f, 3), white), vec3(0, 1.2f, 0));
+    box = test::addMesh(scene, test::boxMesh(vec3(0.7f), white), vec3(-0.5f, 0.35f, -0.5f));
+    lamp = test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
+    settings.set("vpls", 60);
+    settings.set("bounces", kBounces);
+    settings.set("indirect", std::string("samples"));
+    settings.set("updates", 4096);
+    settings.set("antialias", 4);
+    settings.set("repair", 64);
+  }
+
+  GiOutput step(const SceneChanges& changes = {}, bool repairs = true) {
+    return renderer->render(
+        {scene, changes, view, method, settings, false, false, repairs ? rows : 0});
+  }
+  GiOutput rest(const SceneChanges& changes, bool repairs = true) {
+    GiOutput out = step(changes, repairs);
+    for (int i = 0; i < 4000 && !(out.settled && (out.refined || !repairs)); ++i)
+      out = step({}, repairs);
+    EXPECT_TRUE(out.settled);
+    EXPECT_TRUE(out.refined);
+    return out;
+  }
+  Image fresh() {
+    renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
+    return rest(SceneChanges::all()).radiance->pixels();
+  }
+  SceneChanges edit(const std::function<void(Scene&)>& change) {
+    const Scene old = scene;
+    change(scene);
+    return compare(old, scene);
+  }
+};
+
+TEST_F(Repaired, ConvergesToThePathTracer) {
+  const Image reference = test::renderReference(scene, view, 4096, kBounces);
+  const auto errorOf = [&](const Image& picture) { return compareImages(picture, reference); };
+  double last = errorOf(rest(SceneChanges::all(), false).radiance->pixels()).relRmse;
+  RecordProperty("live", std::to_string(last));
+  for (const int paths : {16, 128, 1024}) {
+    settings.set("repair", paths);
+    const GiOutput out = rest({});
+    EXPECT_EQ(out.stats.of("paths_repaired"), paths);
+    const Metrics m = errorOf(out.radiance->pixels());
+    RecordProperty("relRmse" + std::to_string(paths), std::to_string(m.relRmse));
+    RecordProperty("bias" + std::to_string(paths), std::to_string(m.bias));
+    EXPECT_LT(m.relRmse, 0.8 * last) << paths;
+    last = m.relRmse;
+    EXPECT_NEAR(m.bias, 1.0, 0.02);
+  }
+  EXPECT_LT(last, 0.02);
+}
+
+TEST_F(Repaired, BitsDoNotDependOnThreadsAndFrames) {
+  std::vector<Image> images;
+  for (const size_t threads : {1u, 2u, 5u}) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    rows = threads == 2 ? 7 : 1000;
+    images.push_back(fresh());
+  }
+  EXPECT_TRUE(sameBits(images[0], images[1]));
+  EXPECT_TRUE(sameBits(images[0], images[2]));
+}
+
+TEST_F(Repaired, EditsLeaveFreshBits) {
+  rest(SceneChanges::all());
+  const auto expectFresh = [&](const SceneChanges& changes, const char* what) {
+    const Image picture = rest(changes).radiance->pixels();
+    auto used = std::move(renderer);
+    EXPECT_TRUE(sameBits(picture, fresh())) << what;
+    renderer = std::move(used);
+  };
+  expectFresh(edit([&](Scene& s) { s.find(box)->local.translation.x += 0.2f; }), "place");
+  expectFresh(edit([&](Scene& s) { s.find(lamp)->area->radiance *= 0.5f; }), "brightness");
+  expectFresh(edit([&](Scene& s) { s.materials[0].baseColor.r = 0.2f; }), "colour");
+  view.eye.x -= 0.2f;
+  expectFresh({}, "view");
+  settings.set("bounces", 1);
+  expectFresh({}, "bounces");
+  settings.set("speculars", false);
+  expectFresh({}, "speculars");
+  settings.set("seed", 3);
+  expectFresh({}, "seed");
+  settings.set("repair", 32);
+  renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
+  rest(SceneChanges::all());
+  settings.set("repair", 64);  // goes on
+  expectFresh({}, "more paths");
+}
+
+TEST_F(Repaired, AnEditReturnsToTheLivePicture) {
+  rest(SceneChanges::all());
+  GiOutput out = step(edit([&](Scene& s) { s.find(box)->local.translation.z += 0.1f; }));
+  EXPECT_EQ(out.stats.of("paths_repaired"), 0);
+  out = rest({}, false);
+  EXPECT_TRUE(sameBits(out.radiance->pixels(),
+                       test::freshPicture(makeCpuBackend(), scene, view, settings)));
+}
+
+TEST_F(Repaired, IsOffUnlessTheCallerAllowsIt) {
+  const auto picture = rest(SceneChanges::all(), false).radiance;
+  const GiOutput out = step({}, false);
+  EXPECT_EQ(out.radiance, picture);
+  EXPECT_EQ(out.stats.of("paths_repaired"), 0);
+}
+
+TEST_F(Repaired, DoesNothingOnceItIsDone) {
+  const auto picture = rest(SceneChanges::all()).radiance;
+  const GiOutput out = step();
+  EXPECT_EQ(out.radiance, picture);
+  EXPECT_EQ(out.stats.refineUpdates, 0);
+  EXPECT_EQ(out.stats.raysTraced, 0u);
+}
+
+TEST_F(Repaired, EveryCarrierIsRepaired) {
+  const Image reference = averageBlocks(test::renderReference(scene, view, 1024, kBounces), 4);
+  settings.set("repair", 256);
+  for (const char* carrier : {"samples", "meshes", "links", "imperfect", "field"}) {
+    settings.set("indirect", std::string(carrier));
+    const Metrics m = compareImages(averageBlocks(fresh(), 4), reference);
+    RecordProperty(carrier, std::to_string(m.relRmse));
+    EXPECT_LT(m.relRmse, 0.02) << carrier;
+    EXPECT_NEAR(m.bias, 1.0, 0.01) << carrier;
+  }
+}
+
+TEST_F(Repaired, ScenesWithoutLightAreRepairedAtOnce) {
+  Scene dark;
+  test::addMesh(dark, test::squareMesh(2.0f));
+  for (const Scene& s : {dark, Scene()}) {
+    scene = s;
+    EXPECT_EQ(test::meanOf(fresh()), scene.sky.radiance);
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter

@@ -1,0 +1,154 @@
+// The filter of residuals against pictures whose truth and noise are known.
+#include "renderer/path_repair/residual_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/base/random.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr int kWidth = 128, kHeight = 96;
+
+// A wall and a floor that meet in the middle row, with a checked albedo.
+RepairGuides wallAndFloor() {
+  RepairGuides guides;
+  guides.width = kWidth;
+  guides.height = kHeight;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const int up = kHeight / 2 - y;
+      guides.position.emplace_back(0.01f * static_cast<float>(x),
+                                   0.01f * static_cast<float>(std::max(up, 0)),
+                                   0.01f * static_cast<float>(std::max(-up, 0)));
+      guides.normal.push_back(up > 0 ? vec3(0, 0, 1) : vec3(0, 1, 0));
+      guides.albedo.emplace_back((x / 8 + y / 8) % 2 == 0 ? 0.8f : 0.2f);
+      guides.footprint.push_back(0.01f);
+    }
+  return guides;
+}
+
+// The light of the truth: 2 on the floor, and on the wall 1 with a bright disc.
+float lightAt(int x, int y) {
+  if (y >= kHeight / 2) return 2.0f;
+  const float dx = static_cast<float>(x - 64), dy = static_cast<float>(y - 24);
+  return dx * dx + dy * dy < 100.0f ? 3.0f : 1.0f;
+}
+
+struct Residuals : testing::Test {
+  const RepairGuides guides = wallAndFloor();
+  Image truth{kWidth, kHeight}, live{kWidth, kHeight}, first{kWidth, kHeight},
+      second{kWidth, kHeight};
+
+  Residuals() {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        truth.at(x, y) = guides.albedo[static_cast<size_t>(y * kWidth + x)] * lightAt(x, y);
+    live = truth;
+  }
+  // Sums of paths: each finds nothing, or, one in `rare`, the truth times that.
+  void trace(int paths, uint32_t rare) {
+    const auto half = [&](Image& sums, uint32_t set) {
+      for (size_t i = 0; i < sums.pixels.size(); ++i) {
+        sums.pixels[i] = vec3(0.0f);
+        for (int k = 0; k < paths / 2; ++k)
+          if (hash4(static_cast<uint32_t>(i), static_cast<uint32_t>(k), set, 7) % rare == 0)
+            sums.pixels[i] += static_cast<float>(rare) * truth.pixels[i];
+      }
+    };
+    half(first, 1);
+    half(second, 2);
+  }
+  Image repaired(int paths) {
+    ResidualFilter filter(guides, live, first, second, paths);
+    while (!filter.isDone()) filter.step();
+    Image out = filter.takeResidual();
+    for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] += live.pixels[i];
+    return out;
+  }
+  // Root of the mean squared error, of the mean of the truth.
+  double errorOf(const Image& picture) const {
+    double error = 0.0, mean = 0.0;
+    for (size_t i = 0; i < picture.pixels.size(); ++i) {
+      const double d = static_cast<double>(picture.pixels[i].x - truth.pixels[i].x);
+      error += d * d;
+      mean += static_cast<double>(truth.pixels[i].x);
+    }
+    const auto pixels = static_cast<double>(picture.pixels.size());
+    return std::sqrt(error / pixels) / (mean / pixels);
+  }
+  Image meanOfPaths(int paths) const {
+    Image out(kWidth, kHeight);
+    for (size_t i = 0; i < out.pixels.size(); ++i)
+      out.pixels[i] = (first.pixels[i] + second.pixels[i]) / static_cast<float>(paths);
+    return out;
+  }
+};
+
+TEST_F(Residuals, WithoutNoiseTheTruthIsShown) {
+  for (vec3& p : live.pixels) p *= 0.5f;
+  trace(4096, 1);
+  EXPECT_LT(errorOf(repaired(4096)), 0.001);
+}
+
+TEST_F(Residuals, NoiseDoesNotShowInAPictureThatIsRight) {
+  for (const int paths : {2, 8, 32, 128}) {
+    trace(paths, 8);
+    const double noise = errorOf(meanOfPaths(paths)), shown = errorOf(repaired(paths));
+    RecordProperty("noise" + std::to_string(paths), std::to_string(noise));
+    RecordProperty("shown" + std::to_string(paths), std::to_string(shown));
+    EXPECT_LT(shown, 0.05 * noise) << paths;
+  }
+}
+
+// A picture that is a third too dark, and even darker in a corner.
+TEST_F(Residuals, ASmoothErrorIsRepairedLongBeforeTheNoiseIsGone) {
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      live.at(x, y) *= 0.67f - 0.3f * std::exp(-0.001f * static_cast<float>(x * x));
+  double last = errorOf(live);
+  const double before = last;
+  for (const int paths : {8, 32, 128}) {
+    trace(paths, 8);
+    const double noise = errorOf(meanOfPaths(paths)), error = errorOf(repaired(paths));
+    RecordProperty("error" + std::to_string(paths), std::to_string(error));
+    EXPECT_LT(error, last) << paths;
+    EXPECT_LT(error, 0.25 * noise) << paths;
+    last = error;
+  }
+  EXPECT_LT(last, 0.15 * before);
+}
+
+TEST_F(Residuals, AMissingDetailComesWithThePaths) {
+  for (int y = 0; y < kHeight / 2; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      live.at(x, y) = guides.albedo[static_cast<size_t>(y * kWidth + x)];  // without the disc
+  const double before = errorOf(live);
+  trace(128, 8);
+  EXPECT_LT(errorOf(repaired(128)), 0.6 * before);
+  trace(2048, 8);
+  EXPECT_LT(errorOf(repaired(2048)), 0.15 * before);
+}
+
+TEST_F(Residuals, NothingIsSharedAcrossAnEdge) {
+  for (int y = 0; y < kHeight / 2; ++y)
+    for (int x = 0; x < kWidth; ++x) live.at(x, y) = vec3(0.0f);  // the wall is black
+  trace(2, 1);
+  const Image out = repaired(2);
+  for (int y = kHeight / 2; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) EXPECT_EQ(out.at(x, y), truth.at(x, y));
+}
+
+TEST_F(Residuals, WhatShowsNoSurfaceStays) {
+  RepairGuides sky = guides;
+  sky.normal.assign(sky.normal.size(), vec3(0.0f));
+  for (vec3& p : live.pixels) p *= 0.5f;
+  trace(64, 1);
+  ResidualFilter filter(sky, live, first, second, 64);
+  while (!filter.isDone()) filter.step();
+  const Image residual = filter.takeResidual();
+  for (const vec3& p : residual.pixels) EXPECT_EQ(p, vec3(0.0f));
+}
+
+}  // namespace
+}  // namespace lamplighter
