@@ -1,5 +1,8 @@
 #include "renderer/path_repair/repair_guides.h"
 
+#include <algorithm>
+#include <cstdint>
+
 #include <tbb/parallel_for.h>
 
 namespace lamplighter {
@@ -21,11 +24,22 @@ RepairGuides::RepairGuides(const GBufferView& gbuffer, const View& view, bool wh
   const float perMetre =
       glm::distance(view.rayDirection(0.5f * static_cast<float>(width), middle + 0.5f),
                     view.rayDirection(0.5f * static_cast<float>(width), middle - 0.5f));
+  std::vector<uint8_t> isLight(pixels, 1);
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      if (gbuffer.isHit(x, y) && gbuffer.at(x, y).emission == vec3(0.0f))
+        isLight[static_cast<size_t>(y * width + x)] = 0;
+  });
+  const auto isNearLight = [&](int x, int y) {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
+        if (isLight[static_cast<size_t>(v * width + u)] != 0) return true;
+    return false;
+  };
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      if (!gbuffer.isHit(x, y)) continue;
+      if (isNearLight(x, y)) continue;
       const GBufferPoint p = gbuffer.at(x, y);
-      if (p.emission != vec3(0.0f)) continue;
       const auto i = static_cast<size_t>(y * width + x);
       position[i] = p.position;
       normal[i] = p.normal;

@@ -10,8 +10,8 @@ namespace lamplighter {
 
 struct RepairGuides {
   int width = 0, height = 0;
-  // By pixel; world space. Zero normals where the sky or a lamp is seen: such a pixel shares with
-  // no other.
+  // By pixel; world space. Zero normals where the sky or a lamp is seen, and beside: a pixel at
+  // their border shows some of their brightness, which it must not share with others.
   std::vector<vec3> position;  // [m]
   std::vector<vec3> normal;
   std::vector<vec3> albedo;      // by which the residual is divided: never 0

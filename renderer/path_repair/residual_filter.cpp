@@ -23,6 +23,9 @@ constexpr float kLeastPaths = 16.0f;
 // Neighbours in a coarse band share paths: their mean has so much more variance than that of
 // independent ones.
 constexpr float kCorrelation = 1.78f;
+// Pixels that show no surface, or a border of a lamp, take the mean of their paths, beside the live
+// picture as so many paths: the shifted pictures that antialias it.
+constexpr float kLivePaths = 16.0f;
 // The noise around a pixel counts as so many pixels of the usual noise of the picture; with few
 // paths as more, because paths that find nothing show no noise.
 constexpr float kUsualPixels = 8.0f, kUsualPaths = 64.0f;
@@ -135,6 +138,7 @@ ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, co
                   scale * second_.pixels[i] - live_.pixels[i]};
     });
     takeUsualNoise();
+    takeBorders();
   });
   for (int round = 0; round < kTamings; ++round) {
     steps_.push_back([this] {
@@ -180,6 +184,15 @@ ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, co
 ResidualFilter::~ResidualFilter() = default;
 
 void ResidualFilter::step() { steps_[next_++](); }
+
+void ResidualFilter::takeBorders() {
+  const auto paths = static_cast<float>(paths_);
+  for (size_t i = 0; i < live_.pixels.size(); ++i) {
+    if (guides_.normal[i] != vec3(0.0f)) continue;
+    const vec3 mean = (first_.pixels[i] + second_.pixels[i]) / paths;
+    residual_.pixels[i] = paths / (paths + kLivePaths) * (mean - live_.pixels[i]);
+  }
+}
 
 // Of a path for a pixel, by the square of the picture: over the whole picture.
 void ResidualFilter::takeUsualNoise() {

@@ -38,6 +38,7 @@ class ResidualFilter {
   struct Noise;
   void tame();
   void takeUsualNoise();
+  void takeBorders();
   void beginBands();
   void takeDetail();
   void takeBase();
