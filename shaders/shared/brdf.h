@@ -53,7 +53,7 @@ SHARED_FUNCTION Lobe makeLobe(vec3 baseColor, float metallic, float roughness, f
 // 0.03, for roughness from 0.1.
 SHARED_FUNCTION float dielectricAlbedo(float roughness, float least, float nv) {
   float r = max(roughness, least), r2 = r * r;
-  float away = 1.0f - max(nv, kLeastCosine);
+  float away = 1.0f - clamp(nv, kLeastCosine, 1.0f);  // nv may be above 1 by rounding
   return kDielectric * (1.0f - r2 * r) +
          0.96f / (1.0f + 14.9f * r2 + 1.2f * r2 * r2) * pow(away, 5.0f - 9.42f * r + 7.85f * r2);
 }

@@ -146,5 +146,13 @@ TEST(Brdf, WideningKeepsTheEnergy) {
     EXPECT_NEAR(total(solidAngle) / total(0.0f), 1.0, 0.05);
 }
 
+TEST(Brdf, ACosineAboveOneByRoundingIsOne) {
+  const float above = std::nextafter(1.0f, 2.0f);
+  for (const float roughness : {0.1f, 0.3f, 0.6f, 1.0f})
+    EXPECT_EQ(shared::dielectricAlbedo(roughness, 0.05f, above),
+              shared::dielectricAlbedo(roughness, 0.05f, 1.0f))
+        << roughness;
+}
+
 }  // namespace
 }  // namespace lamplighter
