@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "renderer/methods/many_lights/parameters.h"
+#include "renderer/path_repair/repaired_method.h"
 
 namespace lamplighter {
 namespace {
@@ -28,7 +29,7 @@ const std::vector<Row>& rows() {
       {p["antialias"], 1, 16},
       {p["corner_light"], false, true},
       {p["refine"], 0, 1 << 20},
-      {p["repair"], 0, 4096},
+      {repairParameters()["repair"], 0, 4096},
       {sampleParameters()["samples_per_pixel"], 16, 1024},
   };
   return all;

@@ -113,7 +113,7 @@ class Session {
   // renderError() and the status give the reason. FrameFailures says when it is tried again.
   // `updates` replaces the parameter of that name: the amount of work that fits into the time of a
   // frame. Such frames do not wait for background work; others do. `refineUpdates`: the number of
-  // light samples by which a settled picture may be refined; 0: none.
+  // light samples, or of rows of paths, by which a settled picture may be improved; 0: none.
   const GiOutput& renderFrame(std::optional<int> updates = {}, int refineUpdates = 0);
   // Instead of renderFrame(), for a frame that is not shown: updates only the scene that tools use.
   void skipFrame();

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -125,7 +124,7 @@ struct MethodInfo {
   std::string citation;  // of the paper
   std::vector<ParameterSpec> parameters;
   std::vector<StatisticSpec> statistics;
-  std::span<const StageSpec> stages;  // a constant table, in the order of a frame
+  std::vector<StageSpec> stages;  // in the order of a frame
   // The method on this backend, which must meet its needs and outlive it.
   std::function<std::unique_ptr<GiMethod>(Backend&)> make;
   MethodNeeds needs = {};

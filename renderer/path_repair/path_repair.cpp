@@ -26,20 +26,18 @@ bool isShown(int paths, int last, int all) {
 
 }  // namespace
 
-void PathRepair::restart() {
-  if (live_) *this = PathRepair();
-}
-
 bool PathRepair::isDone(const Options& options) const {
-  if (!live_) return options.paths == 0;
   return first_.empty() || (paths_ >= options.paths && !filter_);
 }
 
 void PathRepair::begin(const FrameInputs& in, const Options& options,
                        const std::shared_ptr<RadianceImage>& live) {
+  restart();
   live_ = live;
-  const size_t pixels = live->pixels().pixels.size();
-  if (pixels > kMostPixels || options.paths < 2) return;
+  view_ = in.view;
+  path_ = options.path;
+  if (static_cast<size_t>(live->width()) * static_cast<size_t>(live->height()) > kMostPixels)
+    return;
   in.backend.renderGBuffer(in.view, vec2(0.0f));
   guides_ = RepairGuides(in.backend.hostGBuffer(), in.view, in.lightOnly);
   lights_ = LightSet(in.scene);
@@ -48,7 +46,9 @@ void PathRepair::begin(const FrameInputs& in, const Options& options,
 
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
                      const std::shared_ptr<RadianceImage>& live, int most) {
-  if (!live_) begin(in, options, live);
+  const bool isOther = !in.changes.none() || live != live_ || in.view != view_ ||
+                       options.path != path_ || paths_ > options.paths;
+  if (isOther) begin(in, options, live);
   int done = 0;
   while (done < most && !isDone(options))
     done += filter_ ? filter() : tracePaths(in, options, most - done);

@@ -15,17 +15,19 @@ namespace lamplighter {
 class PathRepair {
  public:
   struct Options {
-    int paths = 0;  // for each pixel; 0: off
+    int paths = 0;  // for each pixel, an even number
     PathTracerOptions path;
   };
 
-  void restart();
-  // Does work that takes as long as at most `most` rows of paths. `live`: the settled picture, the
-  // same with the same options in each call until restart(). Returns the work. Draws the G-buffer
-  // in the first call.
+  void restart() { *this = PathRepair(); }
+  // Does work that takes as long as at most `most` rows of paths, and returns it. `live`: the
+  // settled picture. Starts anew if the scene, the view, the picture or the kind of paths is
+  // another than in the last call, or if there are more paths than wanted; then draws the G-buffer
+  // of the view, without a shift.
   int goOn(const FrameInputs& in, const Options& options,
            const std::shared_ptr<RadianceImage>& live, int most);
 
+  // After goOn() with these options: whether image() has all paths.
   bool isDone(const Options& options) const;
   int paths() const { return paths_; }  // of each pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }
@@ -39,6 +41,8 @@ class PathRepair {
   int filter();
 
   std::shared_ptr<RadianceImage> live_;  // null: not begun
+  View view_;
+  PathTracerOptions path_;
   RepairGuides guides_;
   LightSet lights_;
   Image first_, second_;  // sums of the paths of both halves

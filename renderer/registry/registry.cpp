@@ -11,14 +11,18 @@
 #include "renderer/methods/multi_mesh/multi_mesh.h"
 #include "renderer/methods/path_tracer/reference_method.h"
 #include "renderer/methods/surface_shadow_maps/surface_shadow_maps.h"
+#include "renderer/path_repair/repaired_method.h"
 
 namespace lamplighter {
 namespace {
 
 std::deque<MethodInfo>& list() {
-  static std::deque<MethodInfo> all{manyLightsInfo(),        multiMeshInfo(),
-                                    surfaceShadowMapsInfo(), imperfectShadowMapsInfo(),
-                                    lightFieldInfo(),        ambientOcclusionInfo(),
+  static std::deque<MethodInfo> all{repaired(manyLightsInfo()),
+                                    repaired(multiMeshInfo()),
+                                    repaired(surfaceShadowMapsInfo()),
+                                    repaired(imperfectShadowMapsInfo()),
+                                    repaired(lightFieldInfo()),
+                                    ambientOcclusionInfo(),
                                     referenceInfo()};
   return all;
 }

@@ -26,7 +26,7 @@ struct FrameBudget {
   // If true, slow precomputations may finish some frames later. If false, the frame waits for them,
   // so that every run gives the same frames.
   bool inBackground = false;
-  // The number of light samples by which this frame may refine a settled picture; 0: no refinement.
+  // By how many light samples, or rows of paths, this frame may improve a settled picture; 0: none.
   int refineUpdates = 0;
 };
 

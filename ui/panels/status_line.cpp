@@ -93,8 +93,8 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
   if (output.settled && !output.refined) {
     parts.push_back(
         {"settled", withIcon(icon::kSettled, "refining"), theme::kGood,
-         "The picture is what the scene asks for. While nothing changes it becomes better: the "
-         "mean of more and more light samples."});
+         "The picture is what the scene asks for. While nothing changes it becomes better: by "
+         "paths of the reference, or by more light samples."});
   } else if (output.settled) {
     parts.push_back(
         {"settled", withIcon(icon::kSettled, "settled"), theme::kGood,

@@ -178,7 +178,7 @@ MethodInfo ambientOcclusionInfo() {
           "Rendering Workshop 1998.",
           parameterTable().specs(),
           statisticTable().specs(),
-          kAmbientOcclusionStages,
+          {std::begin(kAmbientOcclusionStages), std::end(kAmbientOcclusionStages)},
           [](Backend&) { return std::make_unique<AmbientOcclusion>(); },
           {{Service::rays}},
           {},

@@ -15,14 +15,11 @@ namespace lamplighter {
 namespace {
 
 // Those of many_lights but for light on surfaces, then those of bounced light.
-std::span<const StageSpec> stagesOf() {
-  static const std::vector<StageSpec> stages = [] {
-    std::vector<StageSpec> all(std::begin(kManyLightsStages), std::end(kManyLightsStages));
-    std::erase(all, kMeshesStage);
-    all.insert(all.end(), std::begin(kImperfectStages), std::end(kImperfectStages));
-    return all;
-  }();
-  return stages;
+std::vector<StageSpec> stagesOf() {
+  std::vector<StageSpec> all(std::begin(kManyLightsStages), std::end(kManyLightsStages));
+  std::erase(all, kMeshesStage);
+  all.insert(all.end(), std::begin(kImperfectStages), std::end(kImperfectStages));
+  return all;
 }
 
 // Direct light is that of many_lights, whose parameters have the same names.

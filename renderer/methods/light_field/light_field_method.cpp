@@ -78,7 +78,7 @@ MethodInfo lightFieldInfo() {
           "The virtual light field on the GPU (paper 5)",
           fieldMethodSpecs(),
           fieldMethodStatistics().specs(),
-          kManyLightsStages,
+          {std::begin(kManyLightsStages), std::end(kManyLightsStages)},
           [](Backend& backend) {
             return std::make_unique<LightFieldMethod>(
                 backend.kernels<ManyLightsKernels>("light_field"));

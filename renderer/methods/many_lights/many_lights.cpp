@@ -62,7 +62,6 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   addLinks(in, options, stages, out, stats);
   addField(in, options, stages, out, stats);
   addImperfect(in, options, stages, out, stats);
-  repair(in, options, stages, out, stats);
   if (!options.carrierReason.empty()) stats.chosen["indirect"] = options.carrierReason;
   out.stats = published(stats, manyLightsStatistics());
   return out;
@@ -432,7 +431,7 @@ MethodInfo manyLightsInfo() {
           "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
           manyLightsParameters().specs(),
           manyLightsStatistics().specs(),
-          kManyLightsStages,
+          {std::begin(kManyLightsStages), std::end(kManyLightsStages)},
           [](Backend& backend) {
             return std::make_unique<ManyLights>(backend.kernels<ManyLightsKernels>("many_lights"));
           },

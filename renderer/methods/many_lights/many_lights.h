@@ -21,7 +21,6 @@
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/methods/many_lights/statistics.h"
 #include "renderer/methods/stage_timer.h"
-#include "renderer/path_repair/path_repair.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/sampling/choice/lamp_importance.h"
 #include "renderer/sampling/choice/point_visibility.h"
@@ -92,8 +91,6 @@ class ManyLights final : public GiMethod {
              ManyLightsStats& stats) const;
   void refine(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
               ManyLightsStats& stats);
-  void repair(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
-              ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
                                              const std::shared_ptr<RadianceImage>& picture,
                                              bool isSmooth, StageTimer& stages);
@@ -150,12 +147,10 @@ class ManyLights final : public GiMethod {
   LiveBiasCompensation corners_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;
-  PathRepair repair_;
-  std::shared_ptr<RadianceImage> unrepaired_;  // of the last frame
-  BouncedPicture meshes_;                      // with indirect = meshes
-  LinkedPicture linked_;                       // with indirect = links
-  FieldPicture field_;                         // with indirect = field
-  ImperfectPicture imperfect_;                 // with indirect = imperfect
+  BouncedPicture meshes_;       // with indirect = meshes
+  LinkedPicture linked_;        // with indirect = links
+  FieldPicture field_;          // with indirect = field
+  ImperfectPicture imperfect_;  // with indirect = imperfect
 };
 
 MethodInfo manyLightsInfo();

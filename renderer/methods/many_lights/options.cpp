@@ -49,8 +49,7 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, boo
   }
   if (!useVisibility()) forgoVisibility();
   if (clampDistance <= 0.0f) cornerLight = false;
-  if (!refines) refine = repair = 0;
-  if (repair > 0) refine = 0;
+  if (!refines) refine = 0;
   groupShare *= 0.01f;  // percent to a share of 1
   // Each interreflection within an object counts as a bounce, like a bounce of a VPL.
   prtBounces = std::min(bounces, prtBounces);

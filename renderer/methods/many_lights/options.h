@@ -33,10 +33,6 @@ struct ManyLightsOptions : ManyLightsParameters {
   // Likewise of light by samples with imperfect shadow maps.
   int imperfectBounces = 0;
   bool useImperfect() const { return imperfectBounces > 0; }
-  // Of whatever carries it.
-  int allBounces() const {
-    return bounces + meshBounces + linkBounces + fieldBounces + imperfectBounces;
-  }
   ImperfectParameters imperfect() const;
   // They show the sky, too, without its suns.
   bool useMeshes() const { return indirect == ManyLightsIndirect::meshes; }

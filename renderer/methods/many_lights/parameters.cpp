@@ -296,22 +296,11 @@ const ParameterTable<P>& manyLightsParameters() {
        "settled: "
        "one short ray per pixel, then smoothed.",
        picture},
-      {&P::repair,
-       "repair",
-       "Repair with",
-       "paths",
-       "Paths of the reference for each pixel that repair a picture at rest in the editor's "
-       "window: "
-       "what they find missing is added, as far as their noise allows to tell. 0: off; the picture "
-       "is refined with light samples instead. Recordings and replays do not repair; render does "
-       "only if this is set.",
-       {0, 1 << 16, kLogarithmic},
-       picture},
       {&P::refine,
        "refine",
        "Refine to",
        "",
-       "Without `repair`: total number of light samples that a picture at rest is refined with in "
+       "Without repair: total number of light samples that a picture at rest is refined with in "
        "the editor's window, in batches, including the light that clamp_distance removed. 0: off. "
        "Recordings "
        "and "
@@ -324,8 +313,7 @@ const ParameterTable<P>& manyLightsParameters() {
 const ParameterTable<ManyLightsParameters>& directSampleParameters() {
   static const ParameterTable<ManyLightsParameters> table{
       manyLightsParameters().only("vpls"), manyLightsParameters().only("antialias"),
-      manyLightsParameters().only("share_memory"), manyLightsParameters().only("refine"),
-      manyLightsParameters().only("repair")};
+      manyLightsParameters().only("share_memory"), manyLightsParameters().only("refine")};
   return table;
 }
 

@@ -53,8 +53,7 @@ struct ManyLightsParameters : LightSumParameters,
   int antialias = 4;         // G-buffers averaged when the lights are settled
   bool cornerLight = true;
   int shareMemory = 256;  // MiB
-  int repair = 256;       // paths for each pixel; used only if the caller allows refinement
-  int refine = 65536;     // total number of VPLs; likewise, and without `repair`
+  int refine = 65536;     // total number of VPLs; used only if the caller allows refinement
   bool operator==(const ManyLightsParameters&) const = default;
 };
 

@@ -270,26 +270,4 @@ void ManyLights::addImperfect(const FrameInputs& in, const Options& options, Sta
   stages.end(kMeshesStage);
 }
 
-// Repairs the settled picture, whatever carries its light.
-void ManyLights::repair(const FrameInputs& in, const Options& options, StageTimer& stages,
-                        GiOutput& out, ManyLightsStats& stats) {
-  if (out.radiance != unrepaired_ || !in.changes.none()) repair_.restart();
-  unrepaired_ = out.radiance;
-  if (options.repair == 0 || !out.settled || in.part != LightPart::all) return repair_.restart();
-  const PathRepair::Options wanted{options.repair,
-                                   {options.allBounces(), static_cast<uint32_t>(options.seed),
-                                    in.lightOnly, options.speculars, options.leastRoughness}};
-  if (!repair_.isDone(wanted)) {
-    gbufferIsCurrent_ = false;
-    stats.refineUpdates =
-        repair_.goOn(in, wanted, out.radiance, in.services.budget().refineUpdates);
-    stats.raysTraced += repair_.takeRays();
-  }
-  out.refined = repair_.isDone(wanted);
-  if (repair_.image()) out.radiance = repair_.image();
-  stats.pathsRepaired = repair_.paths();
-  stats.pathsToRepair = options.repair;
-  stages.end(kRepairStage);
-}
-
 }  // namespace lamplighter

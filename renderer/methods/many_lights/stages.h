@@ -38,13 +38,10 @@ inline constexpr StageSpec kMeshesStage{"meshes", "Light on surfaces",
 inline constexpr StageSpec kRefinementStage{
     "refinement", "Refinement", "Adding batches of light samples to a settled picture."};
 
-inline constexpr StageSpec kRepairStage{
-    "repair", "Repair", "Tracing paths of the reference to repair a settled picture."};
-
 // In the order of a frame.
 inline constexpr StageSpec kManyLightsStages[] = {
     kLightSamplesStage, kVisibilityStage, kShadowMapsStage, kFinerMapsStage,   kLightMapsStage,
     kTransferStage,     kGBufferStage,    kLightSumsStage,  kCompositionStage, kAntialiasingStage,
-    kSharesStage,       kCornersStage,    kMeshesStage,     kRefinementStage,  kRepairStage};
+    kSharesStage,       kCornersStage,    kMeshesStage,     kRefinementStage};
 
 }  // namespace lamplighter

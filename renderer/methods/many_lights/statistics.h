@@ -45,7 +45,6 @@ struct ManyLightsStats : SurfaceLightStats, StoredDepthStats, LightFieldStats {
   int lightsWithoutShare = 0;  // in the settled picture, because memory is short
   // Of a settled picture that is refined: VPLs in the mean, and the target number.
   int vplsRefined = 0, vplsToRefine = 0;
-  int pathsRepaired = 0, pathsToRepair = 0;  // likewise: paths for each pixel
   uint64_t glUploads = 0;  // in this frame: bytes of patches and lights that went to the GPU
   uint64_t glWaits = 0;    // in this frame: times that the processor waited for the GPU
   // Memory [bytes]; what the visibility database needs if it does not fit and is not used.

@@ -17,13 +17,10 @@ constexpr StageSpec kDirectMeshesStage{
     "Finding the direct light of area lights at vertices of meshes, and showing it."};
 
 // Those of many_lights, and the last.
-std::span<const StageSpec> stagesOf() {
-  static const std::vector<StageSpec> stages = [] {
-    std::vector<StageSpec> all(std::begin(kManyLightsStages), std::end(kManyLightsStages));
-    all.push_back(kDirectMeshesStage);
-    return all;
-  }();
-  return stages;
+std::vector<StageSpec> stagesOf() {
+  std::vector<StageSpec> all(std::begin(kManyLightsStages), std::end(kManyLightsStages));
+  all.push_back(kDirectMeshesStage);
+  return all;
 }
 
 // Direct light of other lights is that of many_lights, whose parameters have the same names.

@@ -135,7 +135,7 @@ MethodInfo referenceInfo() {
           "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
           pathTracerParameters().specs(),
           pathTracerStatistics().specs(),
-          kPathTracerStages,
+          {std::begin(kPathTracerStages), std::end(kPathTracerStages)},
           [](Backend&) { return std::make_unique<ReferenceMethod>(); },
           {{Service::rays}}};
 }

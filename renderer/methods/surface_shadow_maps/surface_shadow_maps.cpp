@@ -84,7 +84,7 @@ MethodInfo surfaceShadowMapsInfo() {
           "radiosity (paper 3)",
           parameterSpecs(),
           statisticTable().specs(),
-          kManyLightsStages,
+          {std::begin(kManyLightsStages), std::end(kManyLightsStages)},
           [](Backend& backend) {
             return std::make_unique<SurfaceShadowMaps>(
                 backend.kernels<ManyLightsKernels>("surface_shadow_maps"));

@@ -3,9 +3,7 @@
 #include <tbb/global_control.h>
 
 #include "renderer/image/metrics.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/small_room.h"
 
 namespace lamplighter {
 namespace {
@@ -14,21 +12,12 @@ using test::sameBits;
 
 constexpr int kBounces = 2;
 
-// A closed room with a box. It is so small that a quarter of it is closer to a wall than the clamp
-// distance.
-struct Refined : testing::Test {
-  Scene scene;
-  NodeId box = kNoNode;
-  View view = test::lookAt(vec3(1.2f, 1.6f, 1.3f), vec3(-0.4f, 0.7f, -0.5f), 64, 48, 1.1f);
+struct Refined : testing::Test, test::SmallRoom {
   Settings settings;
   std::unique_ptr<FrameRenderer> renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
   int updates = 64;
 
   Refined() {
-    const int white = test::addMaterial(scene, vec3(0.7f, 0.6f, 0.5f));
-    test::addMesh(scene, test::roomMesh(vec3(3, 2.4f, 3), white), vec3(0, 1.2f, 0));
-    box = test::addMesh(scene, test::boxMesh(vec3(0.7f), white), vec3(-0.5f, 0.35f, -0.5f));
-    test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
     settings.set("vpls", 200);
     settings.set("bounces", kBounces);
     settings.set("indirect", std::string("samples"));

@@ -1,12 +1,10 @@
-// Settled pictures of many_lights, repaired by paths.
+// Settled pictures, repaired by paths.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/small_room.h"
 
 namespace lamplighter {
 namespace {
@@ -15,20 +13,13 @@ using test::sameBits;
 
 constexpr int kBounces = 2;
 
-struct Repaired : testing::Test {
-  Scene scene;
-  NodeId box = kNoNode, lamp = kNoNode;
-  View view = test::lookAt(vec3(1.2f, 1.6f, 1.3f), vec3(-0.4f, 0.7f, -0.5f), 64, 48, 1.1f);
+struct Repaired : testing::Test, test::SmallRoom {
   Settings settings;
   std::string method = "many_lights";
   std::unique_ptr<FrameRenderer> renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
   int rows = 64;  // of paths, in a frame
 
   Repaired() {
-    const int white = test::addMaterial(scene, vec3(0.7f, 0.6f, 0.5f));
-    test::addMesh(scene, test::roomMesh(vec3(3, 2.4f, 3), white), vec3(0, 1.2f, 0));
-    box = test::addMesh(scene, test::boxMesh(vec3(0.7f), white), vec3(-0.5f, 0.35f, -0.5f));
-    lamp = test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
     settings.set("vpls", 60);
     settings.set("bounces", kBounces);
     settings.set("indirect", std::string("samples"));
@@ -114,6 +105,8 @@ TEST_F(Repaired, EditsLeaveFreshBits) {
   rest(SceneChanges::all());
   settings.set("repair", 64);  // goes on
   expectFresh({}, "more paths");
+  settings.set("repair", 16);
+  expectFresh({}, "fewer paths");
 }
 
 TEST_F(Repaired, AnEditReturnsToTheLivePicture) {
@@ -137,7 +130,7 @@ TEST_F(Repaired, DoesNothingOnceItIsDone) {
   const GiOutput out = step();
   EXPECT_EQ(out.radiance, picture);
   EXPECT_EQ(out.stats.refineUpdates, 0);
-  EXPECT_EQ(out.stats.raysTraced, 0u);
+  EXPECT_EQ(out.stats.of("repair_rays"), 0.0);
 }
 
 TEST_F(Repaired, EveryCarrierIsRepaired) {
@@ -149,6 +142,20 @@ TEST_F(Repaired, EveryCarrierIsRepaired) {
     RecordProperty(carrier, std::to_string(m.relRmse));
     EXPECT_LT(m.relRmse, 0.02) << carrier;
     EXPECT_NEAR(m.bias, 1.0, 0.01) << carrier;
+  }
+}
+
+TEST_F(Repaired, EveryMethodIsRepaired) {
+  const Image reference = averageBlocks(test::renderReference(scene, view, 1024, kBounces), 4);
+  settings.reset("indirect");
+  settings.set("repair", 256);
+  for (const char* name : {"many_lights", "multi_mesh", "surface_shadow_maps",
+                           "imperfect_shadow_maps", "light_field"}) {
+    method = name;
+    const Metrics m = compareImages(averageBlocks(fresh(), 4), reference);
+    RecordProperty(name, std::to_string(m.relRmse));
+    EXPECT_LT(m.relRmse, 0.02) << name;
+    EXPECT_NEAR(m.bias, 1.0, 0.01) << name;
   }
 }
 

@@ -1,0 +1,135 @@
+#include "renderer/path_repair/repaired_method.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "renderer/methods/common_parameters.h"
+#include "renderer/path_repair/path_repair.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr StageSpec kRepairStage{"repair", "Repair",
+                                 "Tracing paths of the reference to repair a settled picture."};
+
+struct RepairStats {
+  int paths = 0, wanted = 0;
+  uint64_t rays = 0;
+};
+
+const StatisticTable<RepairStats>& repairStatistics() {
+  using S = RepairStats;
+  static const StatisticTable<S> table{
+      {&S::paths,
+       {.name = "paths_repaired",
+        .label = "Repaired with",
+        .unit = "paths",
+        .meaning = "Paths for each pixel by which a picture is repaired.",
+        .status = "repaired with {}"}},
+      {&S::wanted,
+       {.name = "paths_to_repair",
+        .label = "To repair with",
+        .unit = "paths",
+        .meaning = "Paths for each pixel with which repair ends.",
+        .status = " of {} paths"}},
+      {&S::rays,
+       {.name = "repair_rays",
+        .label = "Rays of repair",
+        .unit = "rays",
+        .meaning = "Rays traced to repair the picture.",
+        .kind = StatisticKind::work,
+        .inTimeline = true}}};
+  return table;
+}
+
+struct PathTracerSettings : PathParameters, SurfaceParameters {};
+
+PathTracerOptions pathsOf(const FrameInputs& in) {
+  static const ParameterTable<PathTracerSettings> table{pathParameters(), surfaceParameters()};
+  const PathTracerSettings read = table.read(in.settings);
+  return {read.bounces, static_cast<uint32_t>(read.seed), in.lightOnly, read.speculars,
+          read.leastRoughness};
+}
+
+class RepairedMethod final : public GiMethod {
+ public:
+  explicit RepairedMethod(std::unique_ptr<GiMethod> method) : method_(std::move(method)) {}
+
+  GiOutput render(const FrameInputs& in) override {
+    const bool mayRepair = in.services.budget().refineUpdates > 0 && in.part == LightPart::all;
+    const int wanted = mayRepair ? repairParameters().read(in.settings).repair : 0;
+    // The halves have as many paths each.
+    const PathRepair::Options options{wanted / 2 * 2, pathsOf(in)};
+    GiOutput out = renderMethod(in, options.paths > 0);
+    const double start = in.stopwatch ? in.stopwatch() : 0.0;
+    RepairStats stats;
+    if (options.paths == 0 || !out.settled)
+      repair_.restart();
+    else
+      repair(in, options, out, stats);
+    if (in.stopwatch) out.stats.stageSeconds.push_back({kRepairStage, in.stopwatch() - start});
+    const std::vector<Statistic> declared = repairStatistics().of(stats);
+    out.stats.declared.insert(out.stats.declared.end(), declared.begin(), declared.end());
+    return out;
+  }
+
+  void reset() override {
+    method_->reset();
+    repair_.restart();
+  }
+  Inspection inspect() const override { return method_->inspect(); }
+
+ private:
+  // A picture that is repaired is not refined with light samples.
+  GiOutput renderMethod(const FrameInputs& in, bool isRepaired) {
+    if (!isRepaired) return method_->render(in);
+    Settings settings = in.settings;
+    settings.set("refine", 0);
+    return method_->render({in.scene, in.changes, in.view, in.backend, in.services, settings,
+                            in.frame, in.stopwatch, in.stageTimes, in.lightOnly, in.part});
+  }
+
+  void repair(const FrameInputs& in, const PathRepair::Options& options, GiOutput& out,
+              RepairStats& stats) {
+    out.stats.refineUpdates =
+        repair_.goOn(in, options, out.radiance, in.services.budget().refineUpdates);
+    out.refined = repair_.isDone(options);
+    if (repair_.image()) out.radiance = repair_.image();
+    stats = {repair_.paths(), options.paths, repair_.takeRays()};
+  }
+
+  std::unique_ptr<GiMethod> method_;
+  PathRepair repair_;
+};
+
+}  // namespace
+
+const ParameterTable<RepairParameters>& repairParameters() {
+  static const ParameterTable<RepairParameters> table{
+      &RepairParameters::repair,
+      "repair",
+      "Repair with",
+      "paths",
+      "Paths of the reference for each pixel that repair a picture at rest in the editor's window: "
+      "what they find missing is added, as far as their noise allows to tell. 0: off; the picture "
+      "is refined with light samples instead. Recordings and replays do not repair; render does "
+      "only if this is set.",
+      {0, 1 << 16, kLogarithmic},
+      ParameterGroup::picture};
+  return table;
+}
+
+MethodInfo repaired(MethodInfo method) {
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(method.parameters, repairParameters().specs());
+  append(method.statistics, repairStatistics().specs());
+  method.stages.push_back(kRepairStage);
+  method.make = [make = std::move(method.make)](Backend& backend) {
+    return std::make_unique<RepairedMethod>(make(backend));
+  };
+  return method;
+}
+
+}  // namespace lamplighter
