@@ -26,6 +26,7 @@ void CpuBackend::takeScene(const RenderScene& scene, const RenderSceneChanges& c
                            const RayCaster& rays) {
   scene_ = &scene;
   rays_ = &rays;
+  shiftedIsKnown_ = shiftedIsKnown_ && changes.none();
   if (changes.rebuilt || changes.materials) {
     stillIsKnown_ = false;
     return;
@@ -43,6 +44,8 @@ void CpuBackend::drawGBuffer(const View& view, vec2 jitter) {
   const bool isStill = jitter == vec2(0.0f);
   Picture& picture = isStill ? still_ : shifted_;
   shown_ = &picture;
+  // Antialiasing that goes on after another stage rendered the unjittered picture.
+  if (!isStill && shiftedIsKnown_ && view == picture.view && jitter == picture.jitter) return;
   if (isStill && stillIsKnown_ && view == stillView_) {
     rayCount_ += updateGBuffer(*scene_, *rays_, view, moves_, picture.gbuffer);
   } else {
@@ -56,7 +59,10 @@ void CpuBackend::drawGBuffer(const View& view, vec2 jitter) {
   }
   picture.view = view;
   picture.jitter = jitter;
-  if (!isStill) return;
+  if (!isStill) {
+    shiftedIsKnown_ = true;
+    return;
+  }
   stillIsKnown_ = true;
   stillView_ = view;
   moves_.clear();

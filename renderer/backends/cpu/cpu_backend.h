@@ -69,6 +69,7 @@ class CpuBackend final : public Backend {
   const Picture* shown_ = &still_;
   bool stillIsKnown_ = false;  // still_ shows stillView_, except for later moves
   View stillView_;
+  bool shiftedIsKnown_ = false;  // shifted_ shows the present scene with its view and jitter
   bool seenIsKnown_ = false;
   SeenPoints seen_;
   uint64_t views_ = 0;

@@ -97,9 +97,8 @@ void LightShares::sumNext(const Inputs& in) {
   const bool isShown = !isMiddle || pictures_ == 1;
   const vec2 jitter = isMiddle ? vec2(0.0f) : pixelJitter(picture_, pictures_);
   const float weight = 1.0f / static_cast<float>(pictures_);
-  const int shown = isMiddle ? -1 : picture_;
-  if (gbufferOf_ != shown) in.frame.backend.renderGBuffer(in.frame.view, jitter);
-  gbufferOf_ = shown;
+  // Between two steps other stages may have rendered another one.
+  in.frame.backend.renderGBuffer(in.frame.view, jitter);
   if (isShown && !hasEmission_) emission_.add(in.frame, in.controls, jitter, weight);
   hasEmission_ = isShown;
   const uint64_t before = in.kernels.lightCounts().lightPixels;

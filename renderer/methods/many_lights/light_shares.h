@@ -85,7 +85,6 @@ class LightShares {
   int picture_ = 0, pictures_ = 1;  // the jittered picture in progress
   size_t next_ = 0;                 // the share in progress
   bool hasEmission_ = false;        // of the picture in progress
-  int gbufferOf_ = -2;  // the picture that the G-buffer shows; -1: without jitter, -2: unknown
   std::vector<LightControls::Control> controls_;  // when it began
   std::vector<Share> shares_;
   std::vector<uint32_t> shareOf_;  // by control

@@ -116,6 +116,31 @@ TEST(MeshBounces, EditsLeaveTheBitsOfAFreshStart) {
 }
 
 // A floor under posts that are thinner than an element, and a panel close to a wall.
+// Shares of large pictures take several frames, between which bounced light renders the G-buffer of
+// the unshifted picture. Later, when bounced light is done, shares are summed without it.
+TEST(MeshBounces, SharesGoOnWithTheirOwnPictureAfterBouncedLight) {
+  const Room room;
+  const View view = test::lookAt(vec3(1.5f, 0.8f, 1.9f), vec3(0.0f, -0.4f, 0.0f), 384, 288);
+  Settings settings = meshSettings(2);
+  settings.set("share_memory", 64);
+  settings.set("vpls", 1000);
+  settings.set("updates", 100);
+  settings.set("coarse_edge", 0.05f);  // so that bounced light is done last
+  settings.set("gather_rays", 4096);
+  settings.set("antialias", 4);
+  FrameRenderer renderer(makeCpuBackend());
+  const auto settled = [&](const SceneChanges& changes) {
+    return test::renderSettled(renderer, room.scene, changes, view, settings).radiance->pixels();
+  };
+  const Image first = settled(SceneChanges::all());
+  settings.set("antialias", 1);
+  const Image plain = settled({});
+  settings.set("antialias", 4);
+  const Image again = settled({});
+  EXPECT_NE(first.pixels, plain.pixels);
+  EXPECT_EQ(first.pixels, again.pixels);
+}
+
 TEST(MeshBounces, LightAroundSmallObjectsIsCloseToThatOfPaths) {
   Room room;
   const int grey = test::addMaterial(room.scene, vec3(0.6f));
