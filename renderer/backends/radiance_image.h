@@ -16,6 +16,7 @@ class RadianceImage {
   virtual int width() const = 0;
   virtual int height() const = 0;
   virtual const Image& pixels() = 0;  // linear radiance [W/(m² sr)]
+  virtual bool isInMainMemory() const { return true; }  // pixels() does not wait for a GPU
   // A copy as by averageBlocks(), in the same memory: the gl backend reads only the copy back, when
   // somebody asks for its pixels.
   virtual std::shared_ptr<RadianceImage> averaged(int block);

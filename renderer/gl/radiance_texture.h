@@ -23,6 +23,7 @@ class RadianceTexture final : public RadianceImage {
   int height() const override { return height_; }
   // Waits for the GPU at the first call.
   const Image& pixels() override;
+  bool isInMainMemory() const override { return false; }
   std::shared_ptr<RadianceImage> averaged(int block) override;
 
   GLuint texture() const { return texture_.name(); }

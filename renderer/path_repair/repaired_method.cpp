@@ -4,13 +4,15 @@
 #include <utility>
 
 #include "renderer/methods/common_parameters.h"
+#include "renderer/path_repair/edge_resolve.h"
 #include "renderer/path_repair/path_repair.h"
 
 namespace lamplighter {
 namespace {
 
 constexpr StageSpec kRepairStage{"repair", "Repair",
-                                 "Tracing paths of the reference to repair a settled picture."};
+                                 "Tracing paths of the reference to repair a settled picture, and "
+                                 "rays for smooth edges before."};
 
 struct RepairStats {
   int paths = 0, wanted = 0;
@@ -67,6 +69,7 @@ class RepairedMethod final : public GiMethod {
       repair_.restart();
     else
       repair(in, options, out, stats);
+    resolveEdges(in, options.paths > 0, out, stats);
     if (in.stopwatch) out.stats.stageSeconds.push_back({kRepairStage, in.stopwatch() - start});
     const std::vector<Statistic> declared = repairStatistics().of(stats);
     out.stats.declared.insert(out.stats.declared.end(), declared.begin(), declared.end());
@@ -76,6 +79,7 @@ class RepairedMethod final : public GiMethod {
   void reset() override {
     method_->reset();
     repair_.restart();
+    edges_.restart();
   }
   Inspection inspect() const override { return method_->inspect(); }
 
@@ -98,8 +102,21 @@ class RepairedMethod final : public GiMethod {
     stats = {repair_.paths(), options.paths, repair_.takeRays()};
   }
 
+  // Smooth edges of a picture that has not settled, while neither the view nor surfaces change.
+  void resolveEdges(const FrameInputs& in, bool isWanted, GiOutput& out, RepairStats& stats) {
+    const bool isSame = in.view == view_ && !in.changes.surfaces() && !in.changes.objects &&
+                        in.changes.switchedObjects.empty();
+    view_ = in.view;
+    if (!isWanted || !isSame) edges_.restart();
+    if (!isWanted || !isSame || out.settled || !out.radiance->isInMainMemory()) return;
+    stats.rays += edges_.findMore(in);
+    out.radiance = edges_.resolved(out.radiance);
+  }
+
   std::unique_ptr<GiMethod> method_;
   PathRepair repair_;
+  EdgeResolve edges_;
+  View view_;  // of the last frame
 };
 
 }  // namespace

@@ -1,0 +1,146 @@
+#include "renderer/path_repair/edge_resolve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/methods/pixel_jitter.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr int kSamples = 8;  // rays for each pixel at an edge
+// Rays of a frame: a few hundredths of a second.
+constexpr size_t kRaysAFrame = size_t{1} << 17;
+// Surfaces are one if a point of the one is out of the plane of the other by less than this share
+// of its distance (a curved surface, seen from near) and their normals are alike.
+constexpr float kMostOffPlane = 0.2f;
+constexpr float kLeastCosine = 0.9f;
+
+float offPlane(const GBufferPoint& p, const vec3& x) {
+  const vec3 way = x - p.position;
+  const float length = glm::length(way);
+  return length > 0.0f ? std::abs(glm::dot(p.geometricNormal, way)) / length : 0.0f;
+}
+
+// Whether two pixels show different things.
+bool differ(const GBufferView& g, int x, int y, int u, int v) {
+  if (g.isHit(x, y) != g.isHit(u, v)) return true;
+  if (!g.isHit(x, y)) return false;
+  const GBufferPoint a = g.at(x, y), b = g.at(u, v);
+  return a.object != b.object || glm::dot(a.normal, b.normal) < kLeastCosine ||
+         std::min(offPlane(a, b.position), offPlane(b, a.position)) > kMostOffPlane;
+}
+
+// f(u, v, i) for the pixels around (x, y) that are in the picture; i: 0 to 8, row by row.
+template <typename F>
+void forEachAround(const GBufferView& g, int x, int y, F&& f) {
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i) {
+      const int u = x + i, v = y + j;
+      if (u >= 0 && v >= 0 && u < g.width() && v < g.height())
+        f(u, v, static_cast<size_t>(3 * (j + 1) + i + 1));
+    }
+}
+
+// Which of the pixels around (x, y) shows best what a sample shows: of those that show the same
+// thing the nearest one. `at`: where the sample lies, in pixels from the middle of (x, y).
+size_t bestAround(const GBufferView& g, int x, int y, const Hit& hit, const vec3& point,
+                  const vec2& at) {
+  constexpr float kOtherSurface = 16.0f;  // more than any distance in pixels
+  size_t best = 4;
+  float least = std::numeric_limits<float>::max();
+  forEachAround(g, x, y, [&](int u, int v, size_t i) {
+    if (g.isHit(u, v) != static_cast<bool>(hit)) return;
+    const vec2 way = vec2(static_cast<float>(u - x), static_cast<float>(v - y)) - at;
+    float cost = glm::dot(way, way);
+    if (hit) {
+      const GBufferPoint p = g.at(u, v);
+      if (p.object != hit.object) return;
+      const float off = offPlane(p, point);
+      if (off > kMostOffPlane) cost += kOtherSurface * (1.0f + off);
+    }
+    if (cost < least) {
+      least = cost;
+      best = i;
+    }
+  });
+  return best;
+}
+
+}  // namespace
+
+void EdgeResolve::findEdges(const FrameInputs& in) {
+  const GBufferView g = in.backend.hostGBuffer();
+  rows_.assign(static_cast<size_t>(g.height()), {});
+  next_ = 0;
+  tbb::parallel_for(0, g.height(), [&](int y) {
+    for (int x = 0; x < g.width(); ++x) {
+      bool isEdge = false;
+      forEachAround(g, x, y,
+                    [&](int u, int v, size_t) { isEdge = isEdge || differ(g, x, y, u, v); });
+      if (isEdge) rows_[static_cast<size_t>(y)].push_back({x, {}});
+    }
+  });
+}
+
+uint64_t EdgeResolve::findMore(const FrameInputs& in) {
+  if (isDone()) return 0;
+  in.backend.renderGBuffer(in.view, vec2(0.0f));
+  if (rows_.empty()) findEdges(in);
+  const size_t begin = next_;
+  size_t rays = 0;
+  for (; next_ < rows_.size() && rays < kRaysAFrame; ++next_)
+    rays += kSamples * rows_[next_].size();
+  const GBufferView g = in.backend.hostGBuffer();
+  tbb::parallel_for(begin, next_, [&](size_t y) { traceRow(in, g, static_cast<int>(y)); });
+  return rays;
+}
+
+void EdgeResolve::traceRow(const FrameInputs& in, const GBufferView& g, int y) {
+  const View& view = in.view;
+  const vec3 forward = view.forward();
+  for (Edge& edge : rows_[static_cast<size_t>(y)]) {
+    std::array<Ray, kSamples> rays;
+    std::array<Hit, kSamples> hits;
+    for (int k = 0; k < kSamples; ++k) {
+      const vec2 at = pixelJitter(k, kSamples);
+      Ray& r = rays[static_cast<size_t>(k)];
+      r.origin = view.eye;
+      r.direction = view.rayDirection(static_cast<float>(edge.x) + 0.5f + at.x,
+                                      static_cast<float>(y) + 0.5f + at.y);
+      r.tNear = view.znear / glm::dot(r.direction, forward);
+    }
+    in.services.rays().intersect8(rays, hits, Surfaces::seen);
+    for (int k = 0; k < kSamples; ++k) {
+      const Ray& r = rays[static_cast<size_t>(k)];
+      const Hit& hit = hits[static_cast<size_t>(k)];
+      const vec3 point = hit ? r.origin + hit.t * r.direction : vec3(0.0f);
+      ++edge.samples[bestAround(g, edge.x, y, hit, point, pixelJitter(k, kSamples))];
+    }
+  }
+}
+
+std::shared_ptr<RadianceImage> EdgeResolve::resolved(
+    const std::shared_ptr<RadianceImage>& picture) {
+  const Image& from = picture->pixels();
+  const auto result = pool_.take(from.width, from.height);
+  Image& to = result->image;
+  tbb::parallel_for(0, from.height, [&](int y) {
+    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(from.width);
+    std::copy_n(&from.pixels[row], from.width, &to.pixels[row]);
+    if (static_cast<size_t>(y) >= next_) return;
+    for (const Edge& edge : rows_[static_cast<size_t>(y)]) {
+      vec3 sum(0.0f);
+      for (size_t i = 0; i < edge.samples.size(); ++i)
+        if (edge.samples[i] != 0)
+          sum += static_cast<float>(edge.samples[i]) *
+                 from.at(edge.x + static_cast<int>(i % 3) - 1, y + static_cast<int>(i / 3) - 1);
+      to.at(edge.x, y) = sum / static_cast<float>(kSamples);
+    }
+  });
+  return result;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,48 @@
+// Smooth edges before a picture has settled: subpixel reconstruction antialiasing. Rays find what
+// share of a pixel each of the surfaces at an edge covers, and the pixel becomes the mean of the
+// pixels around it that show these surfaces. No light is computed for that.
+//
+// After Chajdas, McGuire and Luebke, "Subpixel Reconstruction Antialiasing for Deferred Shading",
+// 2011: geometry at more samples than shading.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "renderer/backends/gbuffer_view.h"
+#include "renderer/backends/image_pool.h"
+#include "renderer/methods/gi_method.h"
+
+namespace lamplighter {
+
+class EdgeResolve {
+ public:
+  void restart() { rows_.clear(); }
+
+  // Traces rays for the next edges of the view, a limited number in each call. Call it in frames in
+  // which neither the view nor surfaces changed, else restart(). Draws the G-buffer of the view
+  // without a shift until all edges are found. Returns the rays traced.
+  uint64_t findMore(const FrameInputs& in);
+  bool isDone() const { return !rows_.empty() && next_ == rows_.size(); }
+
+  // `picture`, in main memory, with smooth edges as far as they were found.
+  std::shared_ptr<RadianceImage> resolved(const std::shared_ptr<RadianceImage>& picture);
+
+ private:
+  struct Edge {
+    int x = 0;
+    // How many samples of the pixel show what the pixels around it show, row by row; 4: the pixel
+    // itself.
+    std::array<uint8_t, 9> samples{};
+  };
+  void findEdges(const FrameInputs& in);
+  void traceRow(const FrameInputs& in, const GBufferView& gbuffer, int y);
+
+  std::vector<std::vector<Edge>> rows_;  // of the picture, from the top; empty: not begun
+  size_t next_ = 0;                      // the first row without samples
+  ImagePool pool_;
+};
+
+}  // namespace lamplighter
