@@ -54,12 +54,16 @@ TEST_F(RenderView, WritesEveryViewAndAllDiffer) {
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
     std::vector<std::string> flags{"--view", info.name};
-    const bool isOfElements = std::ranges::count(info.needs, Capability::elements) > 0;
-    if (info.method.empty())
-      flags.insert(flags.end(), {"--set", "technique=light_maps", "--set",
-                                 isOfElements ? "indirect=meshes" : "prt=true"});
-    else
+    const auto needs = [&](Capability c) { return std::ranges::count(info.needs, c) > 0; };
+    if (!info.method.empty()) {
       flags.insert(flags.end(), {"--method", info.method});
+    } else {
+      flags.insert(flags.end(),
+                   {"--set", "technique=light_maps", "--set", "share_memory=0", "--set",
+                    needs(Capability::elements) ? "indirect=meshes" : "indirect=samples"});
+      // Only there, because transfer takes seconds.
+      if (needs(Capability::transfer)) flags.insert(flags.end(), {"--set", "prt=true"});
+    }
     const ProcessResult r = render("view.png", flags);
     ASSERT_EQ(r.code, 0) << r.err;
     const Image image = readImage(folder_ / "view.png");

@@ -23,6 +23,7 @@ Settings settingsOf(const std::string& technique, int vpls, float groupShare) {
   s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("vpls", vpls);
+  s.set("indirect", std::string("samples"));
   s.set("bounces", 1);
   s.set("updates", vpls);
   s.set("antialias", 1);
