@@ -131,6 +131,7 @@ TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
   settings.set("bounces", 1);
   settings.set("updates", 400);
   settings.set("antialias", 1);
+  settings.set("indirect", std::string("samples"));
   settings.set("light_map_texel", 0.02f);
   const auto render = [&](int mebibytes) {
     settings.set("light_map_memory", mebibytes);
@@ -160,6 +161,7 @@ TEST(LightMapMemory, ThePictureFollowsTheMemoryLimit) {
   Settings settings;
   settings.set("vpls", 60);
   settings.set("antialias", 1);
+  settings.set("indirect", std::string("samples"));
   settings.set("light_map_texel", 0.02f);
   FrameRenderer kept(makeCpuBackend());
   std::vector<float> texels;
