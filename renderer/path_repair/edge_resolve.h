@@ -19,7 +19,7 @@ namespace lamplighter {
 
 class EdgeResolve {
  public:
-  void restart() { rows_.clear(); }
+  void restart();
 
   // Traces rays for the next edges of the view, a limited number in each call. Call it in frames in
   // which neither the view nor surfaces changed, else restart(). Draws the G-buffer of the view
@@ -42,6 +42,9 @@ class EdgeResolve {
 
   std::vector<std::vector<Edge>> rows_;  // of the picture, from the top; empty: not begun
   size_t next_ = 0;                      // the first row without samples
+  // The last result, what it was made of, and how many rows of it are smooth.
+  std::shared_ptr<RadianceImage> result_, from_;
+  size_t smoothRows_ = 0;
   ImagePool pool_;
 };
 
