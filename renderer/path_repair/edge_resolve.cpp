@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -13,8 +14,9 @@ namespace {
 constexpr int kSamples = 8;  // rays for each pixel at an edge
 // Rays of a frame: a few hundredths of a second.
 constexpr size_t kRaysAFrame = size_t{1} << 17;
-// Surfaces are one if a point of the one is out of the plane of the other by less than this share
-// of its distance (a curved surface, seen from near) and their normals are alike.
+// Two points lie on one surface if one is off the other's plane by less than this share of their
+// distance, so that curved surfaces are not divided, and the cosine between their normals is
+// larger.
 constexpr float kMostOffPlane = 0.2f;
 constexpr float kLeastCosine = 0.9f;
 

@@ -38,7 +38,7 @@ const StatisticTable<RepairStats>& repairStatistics() {
        {.name = "repair_rays",
         .label = "Rays of repair",
         .unit = "rays",
-        .meaning = "Rays traced to repair the picture.",
+        .meaning = "Rays traced to repair the picture, and to find its edges before it settles.",
         .kind = StatisticKind::work,
         .inTimeline = true}}};
   return table;
@@ -128,7 +128,8 @@ const ParameterTable<RepairParameters>& repairParameters() {
       "Repair with",
       "paths",
       "Paths of the reference for each pixel that repair a picture at rest in the editor's window: "
-      "what they find missing is added, as far as their noise allows to tell. 0: off; the picture "
+      "what they find missing is added, as far as their noise allows to tell. Before it settles, "
+      "edges are smoothed on the cpu backend. 0: both are off; the picture "
       "is refined with light samples instead. Recordings and replays do not repair; render does "
       "only if this is set.",
       {0, 1 << 16, kLogarithmic},
