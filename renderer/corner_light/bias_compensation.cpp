@@ -165,7 +165,9 @@ void BiasCompensation::gather(Place from, uint32_t whole, const vec3& shadingNor
     const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
     throughput *= std::max(0.0f, 1.0f - hit.t * hit.t / (reach * reach));
     const RenderObject& there = scene_.objects[hit.object];
-    if (options_.emission && !isLeftOut(from.leftOutBy, there.link))
+    const bool isExact = bounces == options_.bounces && hit.object < options_.exactLamps.size() &&
+                         options_.exactLamps[hit.object] != 0;
+    if (options_.emission && !isExact && !isLeftOut(from.leftOutBy, there.link))
       addEmission(hit, s, front, throughput, sink);
     if (bounces == 0) break;
     throughput *= s.albedo;

@@ -38,6 +38,8 @@ class BiasCompensation {
     // By object: the light between its parts is known from transfer, so that its pixels do not lack
     // it. Empty: for no object. Must outlive this object.
     std::span<const uint8_t> reflectsWithin = {};
+    // By object: what pixels receive directly from it is known (near_lamps.h). Likewise.
+    std::span<const uint8_t> exactLamps = {};
     // To find the light of each group of lights: the group of each VPL, and what each object emits.
     // Must outlive this object. Empty: all is one group.
     std::span<const uint32_t> groups = {};

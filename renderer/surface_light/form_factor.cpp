@@ -6,6 +6,22 @@
 
 namespace lamplighter {
 
+namespace {
+
+// The angle in [0, π] of the direction (cosine, sine), of any length, with sine > 0. Unlike
+// std::atan2 it has the same bits on all processors.
+double angleOf(double cosine, double sine) {
+  const double length = std::sqrt(cosine * cosine + sine * sine);
+  double t = cosine >= 0.0 ? sine / (length + cosine) : (length - cosine) / sine;  // of the half
+  for (int half = 0; half < 3; ++half) t /= 1.0 + std::sqrt(1.0 + t * t);
+  // The series of the arc tangent up to t¹⁷; t is at most tan(π/16).
+  double sum = 0.0;
+  for (int power = 17; power > 0; power -= 2) sum = 1.0 / power - t * t * sum;
+  return 16.0 * t * sum;
+}
+
+}  // namespace
+
 float polygonFactor(const vec3& x, const vec3& n, std::span<const vec3> polygon) {
   // Relative to x, clipped at the plane through x: a convex polygon gains at most one corner.
   std::array<glm::dvec3, kMostCorners + 1> corners;
@@ -26,7 +42,7 @@ float polygonFactor(const vec3& x, const vec3& n, std::span<const vec3> polygon)
     const glm::dvec3 cross = glm::cross(a, b);
     const double sine = glm::length(cross);
     if (!(sine > 0.0)) continue;
-    sum += std::atan2(sine, glm::dot(a, b)) / sine * glm::dot(cross, normal);
+    sum += angleOf(glm::dot(a, b), sine) / sine * glm::dot(cross, normal);
   }
   return static_cast<float>(0.5 * std::abs(sum));
 }

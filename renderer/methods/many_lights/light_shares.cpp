@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/corner_light/bias_compensation_filter.h"
+#include "renderer/corner_light/near_lamps.h"
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/many_lights/add_scaled.h"
 #include "renderer/methods/pixel_jitter.h"
@@ -17,6 +18,7 @@ namespace {
 // Work of a frame: lights × pixels summed, and pixels whose corners are traced.
 constexpr uint64_t kLightPixelsAFrame = uint64_t{1} << 24;
 constexpr int kCornerPixelsAFrame = 1 << 16;
+constexpr int kLampPixelsAFrame = 1 << 18;  // of a picture whose light near lamps is corrected
 
 // Each share has a cost of its own, in time and in memory. With more lights the faint ones have one
 // share together.
@@ -30,6 +32,11 @@ constexpr size_t kBytesAPixel = 2 * sizeof(vec3);
 
 size_t pixelsOf(const View& view) {
   return static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
+}
+
+NearLamps nearLampsOf(const LightShares::Inputs& in) {
+  const BiasCompensation::Options& corner = in.options.corner;
+  return {in.frame.scene, in.frame.services.rays(), in.emitters, in.lights, in.controls, corner};
 }
 
 }  // namespace
@@ -129,15 +136,51 @@ void LightShares::sumNext(const Inputs& in) {
     if (isShown) addScaled(shares_[next_].light, image->pixels(), weight);
     ++next_;
   }
+  if (isShown && in.options.corners && !correctNearLamps(in, jitter, weight)) return;
   next_ = 0;
+  lampRows_ = 0;
   hasEmission_ = false;
   picture_ += isShown ? 1 : 0;
   phase_ = picture_ < pictures_ ? Phase::shifted
            : in.options.corners ? Phase::corners
                                 : Phase::done;
   if (picture_ < pictures_) return;
+  if (in.options.corners) keepWithoutCorners(in);
   const auto weights = weightsFor(in.controls);
   in.kernels.dropShares(weights ? weights->ofShares : std::vector<vec3>());
+}
+
+// Goes on with the rows of the picture in progress. Returns whether they are complete.
+bool LightShares::correctNearLamps(const Inputs& in, vec2 jitter, float weight) {
+  const View& view = in.frame.view;
+  const NearLamps lamps = nearLampsOf(in);
+  if (lamps.empty() || lampRows_ == view.height) return true;
+  if (nearLamps_.empty()) nearLamps_ = Image(view.width, view.height);
+  const int end = std::min(view.height, lampRows_ + std::max(1, kLampPixelsAFrame / view.width));
+  std::vector<std::vector<BiasCompensation::Contribution>> byRow(static_cast<size_t>(view.height));
+  lamps.findRows(view, jitter, static_cast<uint32_t>(picture_), lampRows_, end, byRow);
+  const std::vector<vec3> gains = weightsFor(in.controls)->ofControls;
+  tbb::parallel_for(lampRows_, end, [&](int y) {
+    for (const BiasCompensation::Contribution& c : byRow[static_cast<size_t>(y)]) {
+      const vec3 light = weight * c.light;
+      shares_[shareOf_[c.group]].light.pixels[c.pixel] += mixedIn_[c.group] * light;
+      nearLamps_.pixels[c.pixel] += gains[c.group] * light;
+    }
+  });
+  lampRows_ = end;
+  return lampRows_ == view.height;
+}
+
+void LightShares::keepWithoutCorners(const Inputs& in) {
+  withoutCorners_ = Image(in.frame.view.width, in.frame.view.height);
+  mixTo(*weightsFor(in.controls), withoutCorners_);
+  if (nearLamps_.empty()) return;
+  for (size_t i = 0; i < nearLamps_.pixels.size(); ++i)
+    withoutCorners_.pixels[i] -= nearLamps_.pixels[i];
+  nearLamps_ = {};
+  // Where shadow maps and rays differ, more may be taken away than there was.
+  for (Share& s : shares_)
+    for (vec3& p : s.light.pixels) p = glm::max(p, vec3(0.0f));
 }
 
 void LightShares::traceCorners(const Inputs& in) {
@@ -159,9 +202,11 @@ void LightShares::traceCorners(const Inputs& in) {
       emissions.push_back({static_cast<uint32_t>(control),
                            in.controls.controls[static_cast<size_t>(control)].reference});
   }
+  const NearLamps lamps = nearLampsOf(in);
   BiasCompensation::Options options = in.options.corner;
   options.groups = groups;
   options.emissions = emissions;
+  options.exactLamps = lamps.exactLamps();
   const BiasCompensation corners(in.frame.scene, in.frame.services.rays(), vpls, options);
   pixels_.resize(pixelsOf(view));
   contributions_.resize(static_cast<size_t>(view.height));
@@ -173,10 +218,6 @@ void LightShares::traceCorners(const Inputs& in) {
 // One share in each call, because smoothing takes long in large pictures.
 void LightShares::addCorners(const Inputs& in) {
   const int width = in.frame.view.width, height = in.frame.view.height;
-  if (withCorners_ == 0) {
-    withoutCorners_ = Image(width, height);
-    mixTo(*weightsFor(in.controls), withoutCorners_);
-  }
   if (withCorners_ < shares_.size()) {
     tbb::parallel_for(0, height, [&](int y) {
       const size_t row = static_cast<size_t>(y) * static_cast<size_t>(width);

@@ -31,6 +31,7 @@ class LightShares {
   struct Inputs {
     const FrameInputs& frame;
     ManyLightsKernels& kernels;
+    const LightSet& emitters;
     const LightSampleTable& lights;  // all up to date
     const LightControls& controls;
     const VisibilityDatabase* visibility;  // null: naive
@@ -63,7 +64,8 @@ class LightShares {
   // because memory is short, or a light is new. Requires isDone().
   std::optional<Weights> weightsFor(const LightControls& controls) const;
   std::shared_ptr<RadianceImage> mix(const View& view, const Weights& weights);
-  // The picture before the light of corners was added, with the gains of then; empty without it.
+  // The picture before the light of corners and near lamps was added, with the gains of then; empty
+  // without it.
   Image takeWithoutCorners() { return std::move(withoutCorners_); }
 
   int lightsWithoutShare() const { return lightsWithoutShare_; }
@@ -77,14 +79,18 @@ class LightShares {
   };
   void begin(const Inputs& in);
   void sumNext(const Inputs& in);
+  bool correctNearLamps(const Inputs& in, vec2 jitter, float weight);
+  void keepWithoutCorners(const Inputs& in);
   void traceCorners(const Inputs& in);
   void addCorners(const Inputs& in);  // to the next share
   void mixTo(const Weights& weights, Image& picture) const;
 
   Phase phase_ = Phase::idle;
-  int picture_ = 0, pictures_ = 1;  // the jittered picture in progress
-  size_t next_ = 0;                 // the share in progress
-  bool hasEmission_ = false;        // of the picture in progress
+  int picture_ = 0, pictures_ = 1;                // the jittered picture in progress
+  size_t next_ = 0;                               // the share in progress
+  bool hasEmission_ = false;                      // of the picture in progress
+  int lampRows_ = 0;                              // likewise, with near lamps
+  Image nearLamps_;                               // what these change, with the gains of begin()
   std::vector<LightControls::Control> controls_;  // when it began
   std::vector<Share> shares_;
   std::vector<uint32_t> shareOf_;  // by control

@@ -6,24 +6,34 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/corner_light/bias_compensation_filter.h"
+#include "renderer/corner_light/near_lamps.h"
 
 namespace lamplighter {
 namespace {
 
 constexpr int kPixelsAFrame = 1 << 15;
-// Limit of the gain: where there was almost no light the ratio has no meaning.
-constexpr float kMostGain = 2.0f;
+// Limits of the gain: where there was almost no light the ratio has no meaning.
+constexpr float kMostGain = 2.0f, kLeastGain = 0.5f;
 
 }  // namespace
 
-void LiveBiasCompensation::goOn(const FrameInputs& in, const LightSampleTable& lights,
+void LiveBiasCompensation::goOn(const FrameInputs& in, const LightSet& emitters,
+                                const LightSampleTable& lights, const LightControls& controls,
                                 BiasCompensation::Options options) {
   const View& view = in.view;
+  const NearLamps lamps(in.scene, in.services.rays(), emitters, lights, controls, options);
+  options.exactLamps = lamps.exactLamps();
   const std::vector<SceneVpl> vpls = liveSamples(lights.samples);
   const BiasCompensation biasCompensation(in.scene, in.services.rays(), vpls, options);
   pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
   const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));
   biasCompensation.findRows(view, vec2(0.0f), rows_, end, pixels_);
+  if (rows_ == 0) nearLamps_ = Image(view.width, view.height);
+  std::vector<std::vector<BiasCompensation::Contribution>> byRow(static_cast<size_t>(view.height));
+  if (!lamps.empty()) lamps.findRows(view, vec2(0.0f), 0, rows_, end, byRow);
+  for (int y = rows_; y < end; ++y)
+    for (const BiasCompensation::Contribution& c : byRow[static_cast<size_t>(y)])
+      nearLamps_.pixels[c.pixel] += controls.controls[c.group].gain * c.light;
   rows_ = end;
 }
 
@@ -31,7 +41,10 @@ std::shared_ptr<RadianceImage> LiveBiasCompensation::addTo(RadianceImage& settle
   const Image& without = settled.pixels();
   Image with = without;
   addSmoothed(pixels_, filterRadius(1, with.height), with);
+  for (size_t i = 0; i < with.pixels.size(); ++i)
+    with.pixels[i] = glm::max(with.pixels[i] + nearLamps_.pixels[i], vec3(0.0f));
   pixels_ = {};
+  nearLamps_ = {};
   takeGains(without, with);
   return std::make_shared<HostImage>(std::move(with));
 }
@@ -42,8 +55,8 @@ void LiveBiasCompensation::takeGains(const Image& without, const Image& with) {
     for (int x = 0; x < with.width; ++x) {
       for (int c = 0; c < 3; ++c) {
         const float before = without.at(x, y)[c], after = with.at(x, y)[c];
-        gains.at(x, y)[c] = after < kMostGain * before ? after / before : kMostGain;
-        if (!(after > before)) gains.at(x, y)[c] = 1.0f;
+        const float gain = after < kMostGain * before ? after / before : kMostGain;
+        gains.at(x, y)[c] = after == before ? 1.0f : std::max(gain, kLeastGain);
       }
     }
   });

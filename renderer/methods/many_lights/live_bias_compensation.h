@@ -9,6 +9,7 @@
 
 #include "renderer/corner_light/bias_compensation.h"
 #include "renderer/methods/gi_method.h"
+#include "renderer/sampling/light_controls.h"
 #include "renderer/sampling/light_sample_table.h"
 
 namespace lamplighter {
@@ -22,8 +23,8 @@ class LiveBiasCompensation {
 
   bool isWhole(const View& view) const { return rows_ == view.height; }
   // Processes the next rows of pixels, as many as fit into a frame.
-  void goOn(const FrameInputs& in, const LightSampleTable& lights,
-            BiasCompensation::Options options);
+  void goOn(const FrameInputs& in, const LightSet& emitters, const LightSampleTable& lights,
+            const LightControls& controls, BiasCompensation::Options options);
 
   // The settled picture with the missing light. Requires isWhole().
   std::shared_ptr<RadianceImage> addTo(RadianceImage& settled);
@@ -37,6 +38,7 @@ class LiveBiasCompensation {
  private:
   int rows_ = 0;  // rows computed so far
   std::vector<BiasCompensation::Pixel> pixels_;
+  Image nearLamps_;  // what near_lamps.h changes
   // Ratio of the picture with this light to the one without it; null: unknown.
   std::shared_ptr<const Image> gains_;
 };

@@ -294,7 +294,8 @@ const ParameterTable<P>& manyLightsParameters() {
       {&P::cornerLight, "corner_light", "Corner light",
        "Adds the light that clamp_distance removed, mostly in corners, once the picture is "
        "settled: "
-       "one short ray per pixel, then smoothed.",
+       "one short ray per pixel, then smoothed. Near lamps of few triangles and even radiance, it "
+       "replaces the sum of light samples by the form factor in closed form.",
        picture},
       {&P::refine,
        "refine",

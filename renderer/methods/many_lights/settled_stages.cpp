@@ -97,7 +97,7 @@ void ManyLights::goOnWithShares(const FrameInputs& in, const Options& options, S
                               options.cornerLight,       cornerOptions(in, options)};
   gbufferIsCurrent_ = false;
   const bool traces = shares_.tracesCorners();
-  shares_.goOn({in, *kernels_, lights_.table(), controls_, visibility_.get(), groups, wanted});
+  shares_.goOn({in, *kernels_, paths_.lights(), lights_.table(), controls_, visibility_.get(), groups, wanted});
   stages.end(traces ? kCornersStage : kSharesStage);
   if (shares_.isDone()) {
     mixShares(in, *shares_.weightsFor(controls_));
@@ -147,7 +147,7 @@ std::shared_ptr<RadianceImage> ManyLights::fillCorners(
         prt_ && in.part == LightPart::all ? prt_->reflecting() : std::vector<uint8_t>();
     BiasCompensation::Options corner = cornerOptions(in, options);
     corner.reflectsWithin = reflecting;
-    corners_.goOn(in, lights_.table(), corner);
+    corners_.goOn(in, paths_.lights(), lights_.table(), controls_, corner);
     if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
     stages.end(kCornersStage);
   }
