@@ -22,6 +22,19 @@ std::vector<Convergence::Sample> Convergence::thinnedCurve(double factor) const 
   return kept;
 }
 
+void ConvergenceMeter::render() {
+  pacer_.renderFrame(session_);
+  session_.renderer().backend().finish();
+  if (!session_.renderError().empty()) throw InputError(session_.renderError());
+}
+
+double ConvergenceMeter::frame(const std::function<void()>& edit) {
+  const double begin = clock_();
+  edit();
+  render();
+  return clock_() - begin;
+}
+
 Convergence ConvergenceMeter::measure(const std::function<void()>& edit, const ErrorOf& errorOf,
                                       std::optional<double> limit) {
   Convergence result;
@@ -29,10 +42,8 @@ Convergence ConvergenceMeter::measure(const std::function<void()>& edit, const E
   double begin = clock_();
   edit();
   for (bool ends = false; !ends;) {
-    pacer_.renderFrame(session_);
-    session_.renderer().backend().finish();
+    render();
     seconds += clock_() - begin;
-    if (!session_.renderError().empty()) throw InputError(session_.renderError());
 
     const GiOutput& output = session_.output();
     if (result.frames++ == 0) result.firstFrame = seconds;

@@ -1,0 +1,162 @@
+// Plays one recording (tests/support/level_recording.h) on a level with one method, paced as in the
+// editor's window, and compares every frame with the reference.
+//   lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]
+// METHOD: a method, with its parameters as in "many_lights,indirect=samples"; "truth" writes the
+// references, pictures of the path tracer after each step, into the folder REFERENCES. Prints a row
+// of CSV for each step; to CURVES it appends the error over time.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <numeric>
+
+#include <spdlog/fmt/fmt.h>
+#include <sys/resource.h>
+
+#include "editor/cli/options.h"
+#include "editor/convergence/convergence_meter.h"
+#include "editor/session/session.h"
+#include "editor/split/split_view.h"
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/base/error.h"
+#include "renderer/image/average_blocks.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/metrics.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/level_recording.h"
+#include "tests/support/render.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+using test::LevelRecording;
+
+constexpr int kWidth = 320, kHeight = 240;
+constexpr int kBounces = 5, kPaths = 64;
+// Not that of the method reference, whose noise would be the same.
+constexpr uint32_t kSeed = 77;
+constexpr int kBlock = 4;  // errors are those of means of blocks of pixels
+// How long each step is watched, from its last frame of motion on [s].
+constexpr double kSeconds = 8.0;
+// A row of the curves where time has grown by this factor.
+constexpr double kRowFactor = 1.25;
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+fs::path referenceFile(const fs::path& folder, size_t step) {
+  return folder / fmt::format("{}.exr", step);
+}
+
+void writeReferences(const LevelRecording& recording, const fs::path& folder) {
+  fs::create_directories(folder);
+  Scene scene = recording.scene();
+  for (size_t step = 0; step < LevelRecording::kSteps.size(); ++step) {
+    const auto state = recording.after(step, LevelRecording::kSteps[step].frames);
+    recording.apply(state, scene);
+    writeExr(test::renderReference(scene, state.view, kPaths, kBounces, kSeed),
+             referenceFile(folder, step));
+  }
+}
+
+void show(Session& session, const LevelRecording& recording, const LevelRecording::State& state) {
+  const Scene& scene = session.document().scene;
+  const auto moveTo = [&](NodeId id, const vec3& position) {
+    Transform local = scene.find(id)->local;
+    if (local.translation == position) return;
+    local.translation = position;
+    session.setNodeTransform(id, local);
+  };
+  moveTo(recording.lamp(), state.lamp);
+  moveTo(recording.box(), state.box);
+  AreaLight light = *scene.find(recording.lamp())->area;
+  if (light.radiance != state.radiance) {
+    light.radiance = state.radiance;
+    session.setAreaLight(recording.lamp(), light);
+  }
+  session.setView(state.view);
+}
+
+// Of the process, so far.
+double peakMebibytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+std::string orNever(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "never";
+}
+
+void play(const std::string& level, const std::string& method, const LevelRecording& recording,
+          const fs::path& references, std::ostream* curves) {
+  Session session(std::make_unique<FrameRenderer>(makeCpuBackend(), seconds, StageTimes::exact));
+  session.resizeViewport(kWidth, kHeight);
+  RenderSettings render = readSide(method, "").of({});
+  render.values.set("bounces", kBounces);
+  session.editing().setInitialRender(render);
+  ConvergenceMeter meter(session, seconds);
+  for (size_t step = 0; step < LevelRecording::kSteps.size(); ++step) {
+    const auto& [name, frames] = LevelRecording::kSteps[step];
+    const Image truth = averageBlocks(readImage(referenceFile(references, step)), kBlock);
+    const auto errorOf = [&](const Image& picture) {
+      return relRmse(averageBlocks(picture, kBlock), truth);
+    };
+    std::vector<double> moving;
+    for (int frame = 1; frame < frames; ++frame)
+      moving.push_back(
+          meter.frame([&] { show(session, recording, recording.after(step, frame)); }));
+    const Convergence last = meter.measure(
+        [&] {
+          if (step == 0) session.open(recording.scene(), level, {});
+          show(session, recording, recording.after(step, frames));
+        },
+        errorOf, kSeconds);
+    moving.push_back(last.firstFrame);
+    const double mean =
+        std::accumulate(moving.begin(), moving.end(), 0.0) / static_cast<double>(moving.size());
+    std::cout << fmt::format("{},\"{}\",{},{:.0f},{:.0f},{:.4f},{},{},{},{:.4f},{},{:.0f}", level,
+                             method, name, 1e3 * mean, 1e3 * *std::ranges::max_element(moving),
+                             last.curve.front().error, orNever(last.secondsToStayBelow(0.1)),
+                             orNever(last.secondsToStayBelow(0.05)), orNever(last.settled),
+                             last.curve.back().error, last.frames, peakMebibytes())
+              << std::endl;
+    if (curves == nullptr) continue;
+    for (const auto& [time, error] : last.thinnedCurve(kRowFactor))
+      *curves << fmt::format("{},\"{}\",{},{:.3f},{:.4f}\n", level, method, name, time, error);
+  }
+}
+
+int run(int argc, char** argv) {
+  if (argc < 4) {
+    std::cerr << "usage: lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]\n";
+    return 2;
+  }
+  const fs::path file = argv[1];
+  const std::string method = argv[2];
+  Scene scene = loadGltf(file).scene;
+  const View view = cli::chooseView(scene, "", kWidth, kHeight);
+  const LevelRecording recording(std::move(scene), view);
+  if (method == "truth") {
+    writeReferences(recording, argv[3]);
+    return 0;
+  }
+  std::ofstream curves;
+  if (argc > 4) curves.open(argv[4], std::ios::app);
+  play(file.stem().string(), method, recording, argv[3], argc > 4 ? &curves : nullptr);
+  return 0;
+}
+
+}  // namespace
+}  // namespace lamplighter
+
+int main(int argc, char** argv) {
+  try {
+    return lamplighter::run(argc, argv);
+  } catch (const std::exception& e) {
+    std::cerr << "lamplighter_methods_table: " << e.what() << '\n';
+    return 2;
+  }
+}
