@@ -30,6 +30,13 @@ constexpr float kLeastShare = 1e-3f;
 constexpr int kPixelsAtOnce = 8;
 constexpr uint32_t kShadowSet = 0x8d;
 
+// Hits of rays are rounded otherwise than points of triangles.
+constexpr float kSlack = 1.01f;
+
+float distanceBetween(const Bounds& a, const Bounds& b) {
+  return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), vec3(0.0f)));
+}
+
 float distanceTo(const Bounds& bounds, const vec3& p) {
   return glm::length(glm::max(glm::max(bounds.min - p, p - bounds.max), vec3(0.0f)));
 }
@@ -86,6 +93,7 @@ void NearLamps::findRows(const View& view, vec2 jitter, uint32_t sample, int fir
                          std::span<std::vector<BiasCompensation::Contribution>> byRow) const {
   tbb::parallel_for(first, last, [&](int y) {
     std::vector<float> upTo;
+    std::vector<const Lamp*> near;  // of a group of pixels
     for (int x0 = 0; x0 < view.width; x0 += kPixelsAtOnce) {
       std::array<Ray, kPixelsAtOnce> rays;
       std::array<Hit, kPixelsAtOnce> hits;
@@ -96,6 +104,14 @@ void NearLamps::findRows(const View& view, vec2 jitter, uint32_t sample, int fir
         if (x0 + i >= view.width) rays[i].tFar = -1.0f;
       }
       rays_.intersect8(rays, hits, Surfaces::seen);
+      Bounds seen;
+      for (int i = 0; i < kPixelsAtOnce; ++i)
+        if (hits[i]) seen.add(rays[i].origin + hits[i].t * rays[i].direction);
+      near.clear();
+      for (const Lamp& lamp : lamps_)
+        if (!seen.empty() && distanceBetween(lamp.bounds, seen) < kSlack * lamp.reach)
+          near.push_back(&lamp);
+      if (near.empty()) continue;
       for (int i = 0; i < std::min(kPixelsAtOnce, view.width - x0); ++i) {
         const Hit& hit = hits[i];
         if (!hit) continue;
@@ -106,7 +122,8 @@ void NearLamps::findRows(const View& view, vec2 jitter, uint32_t sample, int fir
                           scene_.objects[hit.object].leftOutBy};
         const auto pixel = static_cast<uint32_t>(y * view.width + x0 + i);
         vec3 albedo(-1.0f);
-        for (const Lamp& lamp : lamps_) {
+        for (const Lamp* candidate : near) {
+          const Lamp& lamp = *candidate;
           if (distanceTo(lamp.bounds, s.position) >= lamp.reach) continue;
           const float u = toUnitFloat(hash4(pixel, sample, lamp.seed, options_.seed));
           const float missing = missingAt(lamp, point, u, upTo);
