@@ -185,6 +185,35 @@ void convergeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.callback([=, &run, &frontend] { run = [=, &frontend] { return converge(*o, frontend); }; });
 }
 
+void tilesFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
+  auto o = std::make_shared<TilesOptions>();
+  sub.add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
+  sub.add_option("-o,--output", o->output, "PNG file")->type_name("FILE")->required();
+  sub.add_option("--side", o->sides,
+                 "A method, with parameters after commas; repeatable [all methods that show light]")
+      ->type_name("METHOD[,NAME=VALUE]...")
+      ->allow_extra_args(false);
+  addView(sub, o->camera, o->size);
+  sub.add_option("--columns", o->columns, "Tiles in a row")
+      ->type_name("N")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  sub.add_option("--exposure", o->exposure, "EV for all tiles, or auto")
+      ->type_name("EV")
+      ->capture_default_str();
+  sub.add_option("--seconds", o->seconds,
+                 "Render each for this time, with repair at rest [until it is settled]")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  addBackend(sub, o->backend);
+  addThreads(sub, o->threads);
+  sub.footer(
+      "Errors are against the tile of the reference, in blocks of 4 x 4 pixels\nExample: "
+      "lamplighter tiles level.glb -o tiles.png --side many_lights --side reference,"
+      "samples_per_pixel=256");
+  sub.callback([=, &run, &frontend] { run = [=, &frontend] { return tiles(*o, frontend); }; });
+}
+
 void tonemapFlags(CLI::App& sub, Run& run, const Frontend&) {
   auto o = std::make_shared<TonemapOptions>();
   sub.add_option("IMAGE", o->input, "EXR or HDR file")->type_name("FILE")->required();
@@ -380,6 +409,7 @@ constexpr Subcommand kSubcommands[] = {
     {"settings", "Every setting of the editor, its range and default", settingsFlags},
     {"compare", "How far picture A is from the reference B", compareFlags},
     {"converge", "How fast the live picture approaches a reference after an edit", convergeFlags},
+    {"tiles", "Pictures of several methods side by side, with figures", tilesFlags},
     {"tonemap", "A radiance image as the editor would show it", tonemapFlags},
     {"replay", "Play a recording of input", replayFlags},
     {"script", "Run a file of actions on a scene, without a window", scriptFlags},

@@ -68,6 +68,16 @@ struct ConvergeOptions : MethodFlags {
 };
 int converge(const ConvergeOptions& options, const Frontend& frontend);
 
+struct TilesOptions {
+  std::string scene, output;
+  std::vector<std::string> sides;  // as for the split view; empty: all methods that show light
+  std::string camera, size = "480x270", backend = "auto", exposure = "0";
+  int columns = 3;
+  std::optional<double> seconds;  // as ConvergeOptions
+  int threads = 0;
+};
+int tiles(const TilesOptions& options, const Frontend& frontend);
+
 struct TonemapOptions {
   std::string input, output, exposure = "0";
 };

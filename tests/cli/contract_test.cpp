@@ -166,7 +166,7 @@ TEST_F(CommandLine, EveryFlagIsInTheDocs) {
   std::ifstream in(test::sourceFolder() / "docs/reference/cli.md");
   const std::string docs{std::istreambuf_iterator<char>(in), {}};
   for (const char* sub : {"info", "render", "methods", "actions", "settings", "compare", "converge",
-                          "tonemap", "replay"}) {
+                          "tiles", "tonemap", "replay"}) {
     const std::string help = runLamplighter({sub, "--help"}).out;
     EXPECT_NE(help.find("Example: lamplighter " + std::string(sub)), std::string::npos) << sub;
     const size_t from = docs.find("\n## " + std::string(sub) + "\n");

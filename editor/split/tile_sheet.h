@@ -1,0 +1,23 @@
+// Pictures of one view side by side as tiles, with lines of text under each: for comparing methods.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/image/font.h"
+#include "renderer/image/image.h"
+
+namespace lamplighter {
+
+struct Tile {
+  Image8 picture;  // display-referred; all tiles of a sheet have the same size
+  std::string title;
+  std::vector<std::string> figures;  // each one line; cut off at the width of the picture
+};
+
+// In rows of `columns` tiles. Under each picture there is room for the title and for as many lines
+// as the tile with the most has.
+Image8 tileSheet(std::span<const Tile> tiles, int columns, const Font& font);
+
+}  // namespace lamplighter
