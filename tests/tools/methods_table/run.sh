@@ -55,6 +55,6 @@ mapfile -t levels < <(tail -n +2 "$curves" | cut -d, -f1 | uniq)
       [ ! -s "$work/$level.$name" ] ||
         plots+="'$work/$level.$name' with lines linewidth $([ "$name" = default ] && echo 3 || echo 1.5) title '${name//_/ }',"
     done
-    echo "set title '$level'; plot ${plots%,}"
+    echo "set title '${level//_/ }'; plot ${plots%,}"
   done
 } | gnuplot
