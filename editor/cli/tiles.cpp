@@ -64,7 +64,7 @@ Rendered renderSide(const std::string& text, const Scene& scene, const TilesOpti
 std::vector<std::string> figuresOf(const Rendered& r, const Rendered* reference) {
   std::vector<std::string> figures{
       r.time.settled
-          ? fmt::format("settled after {:.2f} s, {} frames", *r.time.settled, r.time.frames)
+          ? fmt::format("settled after {:.2f} s, {} frames in all", *r.time.settled, r.time.frames)
           : fmt::format("not settled after {} frames", r.time.frames)};
   if (reference != nullptr && reference != &r)
     figures.push_back(fmt::format("{:.1f}% from {}",

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
+#include "renderer/corner_light/seen_pixels.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/vpl.h"
 #include "shaders/shared/brdf.h"
@@ -21,8 +22,6 @@ constexpr uint32_t kNoObject = 0xffffffffu;
 // Share of the selection probability that ignores brightness: the irradiance of a sun and the
 // intensity of a lamp are not comparable.
 constexpr float kEvenChoices = 0.5f;
-
-constexpr int kRaysAtOnce = 8;
 
 }  // namespace
 
@@ -102,17 +101,9 @@ void BiasCompensation::findRows(const View& view, vec2 jitter, int first, int la
                                 std::span<Pixel> pixels,
                                 std::span<std::vector<Contribution>> byRow) const {
   tbb::parallel_for(first, last, [&](int y) {
-    for (int x0 = 0; x0 < view.width; x0 += kRaysAtOnce) {
-      std::array<Ray, kRaysAtOnce> rays;
-      std::array<Hit, kRaysAtOnce> hits;
-      for (int i = 0; i < kRaysAtOnce; ++i) {
-        const vec2 at = vec2(x0 + i, y) + 0.5f + jitter;
-        const vec3 direction = view.rayDirection(at.x, at.y);
-        rays[i] = {view.eye, view.znear / glm::dot(direction, view.forward()), direction};
-        if (x0 + i >= view.width) rays[i].tFar = -1.0f;
-      }
-      rays_.intersect8(rays, hits, Surfaces::seen);
-      for (int i = 0; i < std::min(kRaysAtOnce, view.width - x0); ++i) {
+    for (int x0 = 0; x0 < view.width; x0 += SeenPixels::kCount) {
+      const auto [rays, hits] = SeenPixels(rays_, view, jitter, x0, y);
+      for (int i = 0; i < std::min(SeenPixels::kCount, view.width - x0); ++i) {
         const auto index = static_cast<uint32_t>(y * view.width + x0 + i);
         pixels[index] = pixel(rays[i].direction, hits[i], index,
                               byRow.empty() ? nullptr : &byRow[static_cast<size_t>(y)]);

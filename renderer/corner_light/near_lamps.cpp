@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
+#include "renderer/corner_light/seen_pixels.h"
 #include "renderer/sampling/path_tracing.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
@@ -27,7 +28,6 @@ constexpr float kReach = 8.0f, kFadeFrom = 0.75f;
 constexpr int kRays = 4;
 constexpr float kLeastShare = 1e-3f;
 
-constexpr int kPixelsAtOnce = 8;
 constexpr uint32_t kShadowSet = 0x8d;
 
 // Hits of rays are rounded otherwise than points of triangles.
@@ -94,25 +94,17 @@ void NearLamps::findRows(const View& view, vec2 jitter, uint32_t sample, int fir
   tbb::parallel_for(first, last, [&](int y) {
     std::vector<float> upTo;
     std::vector<const Lamp*> near;  // of a group of pixels
-    for (int x0 = 0; x0 < view.width; x0 += kPixelsAtOnce) {
-      std::array<Ray, kPixelsAtOnce> rays;
-      std::array<Hit, kPixelsAtOnce> hits;
-      for (int i = 0; i < kPixelsAtOnce; ++i) {
-        const vec2 at = vec2(x0 + i, y) + 0.5f + jitter;
-        const vec3 direction = view.rayDirection(at.x, at.y);
-        rays[i] = {view.eye, view.znear / glm::dot(direction, view.forward()), direction};
-        if (x0 + i >= view.width) rays[i].tFar = -1.0f;
-      }
-      rays_.intersect8(rays, hits, Surfaces::seen);
+    for (int x0 = 0; x0 < view.width; x0 += SeenPixels::kCount) {
+      const auto [rays, hits] = SeenPixels(rays_, view, jitter, x0, y);
       Bounds seen;
-      for (int i = 0; i < kPixelsAtOnce; ++i)
+      for (int i = 0; i < SeenPixels::kCount; ++i)
         if (hits[i]) seen.add(rays[i].origin + hits[i].t * rays[i].direction);
       near.clear();
       for (const Lamp& lamp : lamps_)
         if (!seen.empty() && distanceBetween(lamp.bounds, seen) < kSlack * lamp.reach)
           near.push_back(&lamp);
       if (near.empty()) continue;
-      for (int i = 0; i < std::min(kPixelsAtOnce, view.width - x0); ++i) {
+      for (int i = 0; i < std::min(SeenPixels::kCount, view.width - x0); ++i) {
         const Hit& hit = hits[i];
         if (!hit) continue;
         const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);

@@ -55,8 +55,8 @@ LevelRecording::LevelRecording(Scene level, const View& view) : scene_(std::move
   first_.box = view.eye + distance_ * (kBoxAhead * view.forward() - kBoxBelow * view.up() -
                                        0.5f * kMove * view.right());
   lamp_ = addRectangleLight(scene_, first_.lamp, vec2(kLampSize * distance_), first_.radiance);
-  const int grey = addMaterial(scene_, vec3(0.6f, 0.3f, 0.2f));
-  box_ = addMesh(scene_, boxMesh(vec3(kBoxSize * distance_), grey), first_.box);
+  const int brown = addMaterial(scene_, vec3(0.6f, 0.3f, 0.2f));
+  box_ = addMesh(scene_, boxMesh(vec3(kBoxSize * distance_), brown), first_.box);
 }
 
 LevelRecording::State LevelRecording::after(size_t step, int frame) const {

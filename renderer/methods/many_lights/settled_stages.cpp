@@ -97,7 +97,8 @@ void ManyLights::goOnWithShares(const FrameInputs& in, const Options& options, S
                               options.cornerLight,       cornerOptions(in, options)};
   gbufferIsCurrent_ = false;
   const bool traces = shares_.tracesCorners();
-  shares_.goOn({in, *kernels_, paths_.lights(), lights_.table(), controls_, visibility_.get(), groups, wanted});
+  shares_.goOn({in, *kernels_, paths_.lights(), lights_.table(), controls_, visibility_.get(),
+                groups, wanted});
   stages.end(traces ? kCornersStage : kSharesStage);
   if (shares_.isDone()) {
     mixShares(in, *shares_.weightsFor(controls_));
