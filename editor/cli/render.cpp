@@ -176,8 +176,14 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   GiOutput out;
   ProgressLine progress;
   do {
-    out = renderer.render({loaded.scene, changes, view, o.method, settings, display.lightOnly(),
-                           false, kAllAtOnce, display.part()});
+    out = renderer.render({loaded.scene,
+                           changes,
+                           view,
+                           o.method,
+                           settings,
+                           display.lightOnly(),
+                           {.refineUpdates = kAllAtOnce},
+                           display.part()});
     if (totals.frames == 0) requireView(renderer, debugView, o);
     changes = SceneChanges();
     ++totals.frames;

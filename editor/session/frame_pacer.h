@@ -9,13 +9,13 @@ class Session;
 
 // Each frame does as much work as fits into the parameter `frame_time`, by the measured times of
 // earlier frames, and at most the parameter `updates`. At rest the same time refines the picture.
-// The stages of the session's renderer must be measured.
+// No frame waits for work in the background. The stages of the session's renderer must be measured.
 class FramePacer {
  public:
   void renderFrame(Session& session);
 
  private:
-  FrameTimeControl updates_, refinement_;
+  FrameTimeControl control_;
 };
 
 }  // namespace lamplighter

@@ -200,7 +200,7 @@ void Session::skipFrame() {
   }
 }
 
-const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
+const GiOutput& Session::renderFrame(std::optional<int> updates, const FrameBudget& budget) {
   const double begin = clock_ ? clock_() : 0.0;
   const RenderSettings render =
       split_.on() ? split_.first().of(document_.render) : document_.render;
@@ -216,9 +216,8 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
       return output_;
     }
     if (failures_.any()) changes = SceneChanges::all();  // the earlier ones may be lost
-    output_ =
-        renderer_->render({scene, changes, view_, render.method, settings, display_.lightOnly(),
-                           updates.has_value(), refineUpdates, display_.part()});
+    output_ = renderer_->render({scene, changes, view_, render.method, settings,
+                                 display_.lightOnly(), budget, display_.part()});
     tell(std::exchange(output_.failure, nullptr));
     changes.merge(std::exchange(unshown_, {}));
     const bool same = output_.settled && output_.radiance == before && changes.none();
@@ -226,7 +225,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     display_.update(*renderer_, *output_.radiance, view_, document_.render, !same);
     points_.update(pointSubject(), !same, !changes.none());
     watchFrame(changes, begin);
-    updateProbes(changes, updates.has_value());
+    updateProbes(changes, budget.inBackground);
     failures_.rendered();
   } catch (const std::exception& e) {
     frameFailed(e, input);

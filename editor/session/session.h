@@ -112,9 +112,8 @@ class Session {
   // be done. If rendering fails, for example for lack of memory, the last picture stays, and
   // renderError() and the status give the reason. FrameFailures says when it is tried again.
   // `updates` replaces the parameter of that name: the amount of work that fits into the time of a
-  // frame. Such frames do not wait for background work; others do. `refineUpdates`: the number of
-  // light samples, or of rows of paths, by which a settled picture may be improved; 0: none.
-  const GiOutput& renderFrame(std::optional<int> updates = {}, int refineUpdates = 0);
+  // frame.
+  const GiOutput& renderFrame(std::optional<int> updates = {}, const FrameBudget& budget = {});
   // Instead of renderFrame(), for a frame that is not shown: updates only the scene that tools use.
   void skipFrame();
   // Discards what the method keeps; the next frame is rendered even if the last one failed.

@@ -26,6 +26,13 @@
 
 namespace lamplighter {
 
+// What the time of a stage depends on, as far as a frame can be told to do less.
+enum class StageWork {
+  fixed,     // none of the following
+  updates,   // GiStats::updates
+  surfaces,  // GiStats::surfaceWork
+};
+
 // A stage of a frame: work whose time is measured by itself. A method declares its stages as
 // constants, lists them in MethodInfo and measures them with a StageTimer
 // (renderer/methods/stage_timer.h). Stages are the same if their names are.
@@ -33,6 +40,7 @@ struct StageSpec {
   std::string_view name{};     // as in --stats and in exports of the timeline
   std::string_view label{};    // as in the timeline
   std::string_view meaning{};  // one sentence
+  StageWork work = StageWork::fixed;
   bool operator==(const StageSpec& other) const { return name == other.name; }
 };
 
@@ -66,6 +74,7 @@ struct StatisticSpec {
   std::vector<StageSpec> stages{};
   // Of a state: its text in the cost of the budget, as `status`. It is left out if the value is 0.
   std::string cost{};
+  bool isHeld = true;  // of bytes: they are in memory
 
   bool isWhole = true;  // the table sets it from the type of the member
 };

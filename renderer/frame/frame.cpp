@@ -48,8 +48,7 @@ GiOutput FrameRenderer::renderUpdated(const Request& request) {
   } else if (isOtherScene) {
     method_->reset();  // another scene: nothing of the previous one may remain
   }
-  services_.beginFrame(scene, changes, rays, {request.inBackground, request.refineUpdates},
-                       isOtherScene);
+  services_.beginFrame(scene, changes, rays, request.budget, isOtherScene);
   const View view = world_.viewOf(request.view);
   GiOutput output =
       method_->render({scene, changes, view, *backend_, services_, request.settings, frame_++,

@@ -24,9 +24,8 @@ class FrameRenderer {
     const View& view;             // [m]
     const std::string& method;
     const Settings& settings;
-    bool lightOnly = false;     // visible surfaces are shown white
-    bool inBackground = false;  // as in FrameBudget
-    int refineUpdates = 0;      // as in FrameBudget
+    bool lightOnly = false;  // visible surfaces are shown white
+    FrameBudget budget = {};
     LightPart part = LightPart::all;
   };
   // Renders one frame. Throws InputError for an unknown method, and what the method, Embree and the

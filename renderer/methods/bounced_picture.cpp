@@ -23,8 +23,8 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   const RenderSceneChanges changes = std::exchange(unseen_, {});
   scene_ = &in.scene;
   const bool isLive = !changes.none() || !(in.view == view_);
-  const auto most = static_cast<uint64_t>((isLive ? std::min(pace, 1.0f) : 1.0f) *
-                                          static_cast<float>(kRaysAFrame));
+  pace_ = isLive ? std::min(pace, 1.0f) : 1.0f;
+  const auto most = static_cast<uint64_t>(pace_ * static_cast<float>(kRaysAFrame));
   hasOtherLight_ = light_.update(in.scene, changes, in.services.rays(), light, most);
   if (hasOtherLight_) shown_ = nullptr;
   raysLeft_ = std::max(most / 4, most - std::min(most, light_.counts().rays));

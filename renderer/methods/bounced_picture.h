@@ -19,6 +19,8 @@ class BouncedPicture {
   // a frame in which anything changes.
   void update(const FrameInputs& in, const SurfaceLightOptions& light,
               const SurfacePictureOptions& picture, float pace = 1.0f);
+  // The share that the last update was limited to.
+  float pace() const { return pace_; }
 
   // `picture` plus bounced light, the mean of `antialias` shifted pictures (1: without a shift).
   // Each frame adds one of them; until they are complete it is without a shift. `gbufferIsCurrent`:
@@ -63,6 +65,7 @@ class BouncedPicture {
   bool recordsAreOutdated_ = true;  // anything but the light of the mesh changed
   bool isAtRest_ = false, hasOtherLight_ = false, keepsPixels_ = false;  // of this frame
   uint64_t raysLeft_ = 0;                                                // of this frame
+  float pace_ = 1.0f;                                                    // of this frame
   uint32_t seed_ = 0;
   GatherProjection projection_ = GatherProjection::hemisphere;
   SurfacePicture plain_, smooth_;  // without a shift; antialiased

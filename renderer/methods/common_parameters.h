@@ -44,6 +44,11 @@ struct FrameBudgetParameters {
   bool operator==(const FrameBudgetParameters&) const = default;
 };
 const ParameterTable<FrameBudgetParameters>& frameBudgetParameters();
+// The share of the usual work of a frame that a number of updates stands for.
+inline float paceOf(int updates) {
+  return static_cast<float>(updates) / static_cast<float>(FrameBudgetParameters().updates);
+}
+
 inline constexpr char kUpdates[] = "updates";  // the name of that parameter
 
 }  // namespace lamplighter

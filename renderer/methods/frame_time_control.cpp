@@ -8,9 +8,14 @@ namespace {
 constexpr double kWeight = 0.5;  // of the last frame in the running mean
 constexpr double kMostGrowth = 2.0, kLeastGrowth = 0.5;
 
-// At least this number of updates is made at any cost: a slow picture that converges is better
-// than one that never does.
-constexpr int kLeastUpdates = 16;
+// This much work is done at any cost: a slow picture that converges is better than one that never
+// does.
+constexpr double kLeastUpdates = 16.0, kMostUpdates = 65536.0;
+constexpr double kLeastSurfaceWork = 0.15, kMostSurfaceWork = 8.0;
+
+// The share of the limit that each kind of work gets at least. Without it, light on surfaces would
+// leave nothing to the direct light of a dragged lamp, which would lag behind.
+constexpr double kLeastShare = 0.25;
 
 void average(double& mean, double value) {
   mean = mean == 0.0 ? value : mean + kWeight * (value - mean);
@@ -18,26 +23,55 @@ void average(double& mean, double value) {
 
 }  // namespace
 
-void FrameTimeControl::measured(const GiStats& stats) {
-  double seconds = 0.0;
-  for (const auto& [stage, time] : stats.stageSeconds) seconds += time;
-  // Ignores frames that say nothing about the limit: without updates, or with fewer than
-  // allowed in less time than wanted.
-  if (stats.updates == 0 || (stats.updates < allowed_ && seconds < wanted_)) return;
-  average(updates_, stats.updates);
+// Ignores frames that say nothing about the limit: without such work, or with less than allowed in
+// less time than wanted.
+void WorkRate::measured(double amount, double seconds, double all) {
+  if (amount == 0.0 || (amount < allowed_ && all < wanted_)) return;
+  average(amount_, amount);
   average(seconds_, seconds);
 }
 
-// A part of the frame time is independent of the number of updates, so this approaches the right
-// number in steps and never exceeds it.
-int FrameTimeControl::updatesWithin(double seconds) {
-  wanted_ = seconds;
-  allowed_ = kLeastUpdates;
+// A part of the time may not depend on the amount, so this approaches the right one in steps.
+double WorkRate::within(double seconds, double all, double least, double most) {
+  wanted_ = all;
+  allowed_ = least;
   if (seconds_ > 0.0) {
     const double growth = std::clamp(seconds / seconds_, kLeastGrowth, kMostGrowth);
-    allowed_ = std::max(kLeastUpdates, static_cast<int>(std::min(growth * updates_, 65536.0)));
+    allowed_ = std::clamp(growth * amount_, least, most);
   }
   return allowed_;
+}
+
+void FrameTimeControl::measured(const GiStats& stats) {
+  double all = 0.0, ofUpdates = 0.0, ofSurfaces = 0.0;
+  for (const auto& [stage, time] : stats.stageSeconds) {
+    all += time;
+    if (stage.work == StageWork::updates) ofUpdates += time;
+    if (stage.work == StageWork::surfaces) ofSurfaces += time;
+  }
+  // If no stage tells, all work counts as that of updates.
+  if (ofUpdates == 0.0) ofUpdates = all - ofSurfaces;
+  updates_.measured(stats.updates, ofUpdates, all);
+  surfaces_.measured(static_cast<double>(stats.surfaceWork), ofSurfaces, all);
+  refinement_.measured(stats.refineUpdates, all, all);
+  if (stats.updates == 0 && stats.surfaceWork == 0.0f) return;
+  average(ofUpdates_, ofUpdates);
+  average(ofSurfaces_, ofSurfaces);
+  average(rest_, all - ofUpdates - ofSurfaces);
+}
+
+FrameTimeControl::Work FrameTimeControl::within(double seconds) {
+  const double share = kLeastShare * seconds;
+  const double forUpdates = seconds - rest_ - std::min(ofSurfaces_, share);
+  const double forSurfaces = seconds - rest_ - ofUpdates_;
+  Work work;
+  work.updates = static_cast<int>(
+      updates_.within(std::max(forUpdates, share), seconds, kLeastUpdates, kMostUpdates));
+  work.surfaces = static_cast<float>(
+      surfaces_.within(std::max(forSurfaces, share), seconds, kLeastSurfaceWork, kMostSurfaceWork));
+  work.refineUpdates =
+      static_cast<int>(refinement_.within(seconds, seconds, kLeastUpdates, kMostUpdates));
+  return work;
 }
 
 }  // namespace lamplighter

@@ -53,6 +53,9 @@ struct GiStats {
   // Items that were brought up to date in this frame, at most the parameter `updates`; items that
   // wait for it; items by which the settled picture was refined, at most refineUpdates.
   int updates = 0, pending = 0, refineUpdates = 0;
+  // The share of the usual work of a frame on light on surfaces that this frame was limited to; 0:
+  // it did none.
+  float surfaceWork = 0.0f;
   int samplesPerPixel = 0;
   uint64_t raysTraced = 0;              // in this frame, by the method
   std::vector<StageTime> stageSeconds;  // as MethodInfo::stages; empty: not measured

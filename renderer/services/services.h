@@ -28,6 +28,9 @@ struct FrameBudget {
   bool inBackground = false;
   // By how many light samples, or rows of paths, this frame may improve a settled picture; 0: none.
   int refineUpdates = 0;
+  // The share of the usual work of a frame that it may spend on light on surfaces, from elements,
+  // links or a field; not given: that of the parameter `updates` in its default.
+  std::optional<float> surfaceWork = {};
 };
 
 class Services {

@@ -25,9 +25,9 @@ BiasCompensation::Options cornerOptions(const FrameInputs& in, const ManyLightsO
           options.leastRoughness};
 }
 
-// Share of the usual work of a frame.
-float paceOf(const ManyLightsOptions& options) {
-  return static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates);
+// Share of the usual work of a frame on light on surfaces.
+float paceOf(const FrameInputs& in, const ManyLightsOptions& options) {
+  return in.services.budget().surfaceWork.value_or(lamplighter::paceOf(options.updates));
 }
 
 }  // namespace
@@ -185,7 +185,7 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
                : showsSky               ? SurfaceLightPart::sky
                                         : SurfaceLightPart::bounced;
   meshes_.update(in, light, {in.lightOnly, options.speculars, options.leastRoughness},
-                 paceOf(options));
+                 paceOf(in, options));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
   if (!meshes_.isDone(options.antialias)) refinement_.restart();
@@ -195,6 +195,7 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
     stats.framesUntilSettled =
         std::max({1, stats.framesUntilSettled, meshes_.framesLeft(options.antialias)});
   stats.take(meshes_.counts());
+  if (meshes_.counts().rays > 0) stats.surfaceWork = meshes_.pace();
   stats.raysTraced += meshes_.counts().rays;
   stages.end(kMeshesStage);
 }
@@ -205,7 +206,7 @@ void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTi
   if (!options.useLinks()) linked_.forget();
   linked_.outdate(in);
   if (!options.useLinks() || in.part == LightPart::direct) return;
-  linked_.update(in, options.radiosity(options.linkBounces, options.seed), paceOf(options));
+  linked_.update(in, options.radiosity(options.linkBounces, options.seed), paceOf(in, options));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
   out.radiance = linked_.addTo(in, out.radiance, samples,
                                {in.lightOnly, options.speculars, options.leastRoughness},
@@ -219,6 +220,7 @@ void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTi
         std::max({1, stats.framesUntilSettled, linked_.framesLeft(options.antialias)});
   stats.take(linked_.light());
   stats.raysTraced += linked_.light().counts().rays;
+  if (linked_.light().counts().rays > 0) stats.surfaceWork = paceOf(in, options);
   stages.end(kMeshesStage);
 }
 
@@ -231,7 +233,7 @@ void ManyLights::addField(const FrameInputs& in, const Options& options, StageTi
   LightFieldOptions light = options.field(options.fieldBounces, options.seed);
   light.showsSky = in.part != LightPart::indirect;
   light.showsBounces = light.showsBounces && in.part != LightPart::direct;
-  field_.update(in, light, paceOf(options));
+  field_.update(in, light, paceOf(in, options));
   const int samples = (out.settled || holdsMix_) && options.antialias > 1 ? options.antialias : 1;
   out.radiance = field_.addTo(in, out.radiance, samples,
                               {in.lightOnly, options.speculars, options.leastRoughness},
@@ -245,6 +247,7 @@ void ManyLights::addField(const FrameInputs& in, const Options& options, StageTi
         std::max({1, stats.framesUntilSettled, field_.framesLeft(options.antialias)});
   stats.take(field_.light());
   stats.raysTraced += stats.fieldRays;
+  if (stats.fieldRays > 0) stats.surfaceWork = paceOf(in, options);
   stages.end(kMeshesStage);
 }
 

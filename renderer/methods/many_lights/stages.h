@@ -10,16 +10,19 @@ inline constexpr StageSpec kLightSamplesStage{
     "Tracing light paths and choosing the light samples for the view."};
 inline constexpr StageSpec kVisibilityStage{
     "visibility", "Visibility",
-    "Choosing the light samples to update, and testing which patches they reach."};
+    "Choosing the light samples to update, and testing which patches they reach.",
+    StageWork::updates};
 inline constexpr StageSpec kShadowMapsStage{
     "shadow maps", "Shadow maps",
-    "Rendering shadow maps, and choosing the maps and proxies for the view."};
+    "Rendering shadow maps, and choosing the maps and proxies for the view.", StageWork::updates};
 inline constexpr StageSpec kFinerMapsStage{
     "finer maps", "Finer maps", "Rendering finer shadow maps once nothing else is pending."};
 inline constexpr StageSpec kLightMapsStage{
-    "light maps", "Light maps", "Adding light samples to the light maps and subtracting them."};
+    "light maps", "Light maps", "Adding light samples to the light maps and subtracting them.",
+    StageWork::updates};
 inline constexpr StageSpec kTransferStage{
-    "transfer", "Transfer", "Computing and lighting meshes with precomputed radiance transfer."};
+    "transfer", "Transfer", "Computing and lighting meshes with precomputed radiance transfer.",
+    StageWork::updates};
 inline constexpr StageSpec kGBufferStage{"g-buffer", "G-buffer",
                                          "Finding the surface of each pixel."};
 inline constexpr StageSpec kLightSumsStage{"light sums", "Light sums",
@@ -34,7 +37,8 @@ inline constexpr StageSpec kSharesStage{
 inline constexpr StageSpec kCornersStage{"corners", "Corners",
                                          "Tracing the light that the clamp removes near surfaces."};
 inline constexpr StageSpec kMeshesStage{"meshes", "Light on surfaces",
-                                        "Finding bounced light on the surfaces, and showing it."};
+                                        "Finding bounced light on the surfaces, and showing it.",
+                                        StageWork::surfaces};
 inline constexpr StageSpec kRefinementStage{
     "refinement", "Refinement", "Adding batches of light samples to a settled picture."};
 

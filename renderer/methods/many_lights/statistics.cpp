@@ -210,7 +210,8 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
             "Memory that the visibility database would need at least, if it does not fit and "
             "is not used.",
         .budget = "visibility_memory",
-        .cost = "left out: needs {}"}},
+        .cost = "left out: needs {}",
+        .isHeld = false}},
       {&S::lightMapTexels,
        {.name = "light_map_texels",
         .label = "Light-map texels",

@@ -14,7 +14,8 @@ namespace {
 
 constexpr StageSpec kDirectMeshesStage{
     "direct meshes", "Direct light on meshes",
-    "Finding the direct light of area lights at vertices of meshes, and showing it."};
+    "Finding the direct light of area lights at vertices of meshes, and showing it.",
+    StageWork::surfaces};
 
 // Those of many_lights, and the last.
 std::vector<StageSpec> stagesOf() {
@@ -140,8 +141,7 @@ class MultiMesh final : public GiMethod {
     const auto antialias = manyLightsParameters().read(in.settings).antialias;
     // Shifted pictures wait for the rest of the light.
     const int samples = out.settled ? antialias : 1;
-    const float pace =
-        static_cast<float>(options.updates) / static_cast<float>(FrameBudgetParameters().updates);
+    const float pace = in.services.budget().surfaceWork.value_or(paceOf(options.updates));
     out.radiance =
         direct_.addTo(in, out.radiance, samples, options.directMeshes(options.seed),
                       {in.lightOnly, options.speculars, options.leastRoughness},
@@ -160,6 +160,7 @@ class MultiMesh final : public GiMethod {
     stats.directMasks = static_cast<int>(counts.work.masks);
     stats.directOpen = static_cast<int>(counts.work.open);
     stats.directRays = counts.work.rays;
+    if (!direct_.isDone(1)) stats.surfaceWork = pace;
     stats.meshBytes = counts.bytes;
     stats.raysTraced += counts.work.rays;
     if (in.stopwatch) stats.stageSeconds.back().seconds = in.stopwatch() - start;

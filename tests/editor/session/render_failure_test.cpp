@@ -222,7 +222,8 @@ TEST_F(RenderFailure, OfTheThreadOfTransferIsTold) {
   const uint64_t document = hash();
   // As in the window: frames with a budget do not wait.
   const auto settleInBackground = [&] {
-    for (int i = 0; i < 100000 && !session_.renderFrame(16).settled; ++i) std::this_thread::yield();
+    for (int i = 0; i < 100000 && !session_.renderFrame(16, {.inBackground = true}).settled; ++i)
+      std::this_thread::yield();
     EXPECT_TRUE(session_.output().settled);
     return session_.output().radiance->pixels().pixels;
   };
@@ -231,7 +232,7 @@ TEST_F(RenderFailure, OfTheThreadOfTransferIsTold) {
   EXPECT_EQ(messages("Embree error 2"), 1);
   EXPECT_EQ(session_.renderError(), "");  // the picture itself did not fail
   EXPECT_EQ(hash(), document);
-  for (int i = 0; i < 3; ++i) session_.renderFrame(16);
+  for (int i = 0; i < 3; ++i) session_.renderFrame(16, {.inBackground = true});
   EXPECT_EQ(messages("Embree error 2"), 1);
 
   // The next change of the object tries again.

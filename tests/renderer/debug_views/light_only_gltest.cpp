@@ -61,7 +61,7 @@ TEST_F(LightOnly, PartsAreTheSameOnBothBackends) {
       test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
       for (const LightPart part : {LightPart::all, LightPart::direct, LightPart::indirect})
         pictures[backend][static_cast<int>(part)] =
-            renderer.render({scene, {}, view, "many_lights", settings, false, false, 0, part})
+            renderer.render({scene, {}, view, "many_lights", settings, false, {}, part})
                 .radiance->pixels();
     }
     for (const int part : {0, 1, 2})

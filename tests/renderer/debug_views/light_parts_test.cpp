@@ -34,8 +34,14 @@ class LightParts : public testing::TestWithParam<Case> {
   Image settled(LightPart part) {
     GiOutput out;
     for (int i = 0; i < 60; ++i) {
-      out = renderer_.render({scene_, i == 0 && first_ ? SceneChanges::all() : SceneChanges(),
-                              view_, GetParam().method, settings_, false, false, 0, part});
+      out = renderer_.render({scene_,
+                              i == 0 && first_ ? SceneChanges::all() : SceneChanges(),
+                              view_,
+                              GetParam().method,
+                              settings_,
+                              false,
+                              {},
+                              part});
       first_ = false;
       if (out.settled) break;
     }

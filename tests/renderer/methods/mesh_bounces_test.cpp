@@ -182,7 +182,7 @@ TEST(MeshBounces, RefinementWaitsForLightOnSurfaces) {
   const auto settle = [&](SceneChanges changes) {
     for (bool settled = false; !settled; changes = {}) {
       FrameRenderer::Request request{room.scene, changes, room.view, kMethod, settings};
-      request.refineUpdates = 64;
+      request.budget.refineUpdates = 64;
       const GiOutput out = renderer.render(request);
       settled = out.settled;
       EXPECT_FALSE(out.refined);
@@ -191,7 +191,7 @@ TEST(MeshBounces, RefinementWaitsForLightOnSurfaces) {
       }
     }
     FrameRenderer::Request request{room.scene, {}, room.view, kMethod, settings};
-    request.refineUpdates = 64;
+    request.budget.refineUpdates = 64;
     EXPECT_GT(renderer.render(request).stats.refineUpdates, 0);
   };
   settle(SceneChanges::all());

@@ -69,9 +69,11 @@ void drag(benchmark::State& state, const Case& c) {
   const double milliseconds = frameBudgetParameters().read(settings).frameTime;
   const auto frame = [&](const SceneChanges& changes) {
     Settings now = settings;
-    const int fit = c.byTime ? control.updatesWithin(1e-3 * milliseconds) : 100;
-    now.set("updates", std::min(frameBudgetParameters().read(settings).updates, fit));
-    GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
+    FrameTimeControl::Work fit{.updates = 100};
+    if (c.byTime) fit = control.within(1e-3 * milliseconds);
+    now.set("updates", std::min(frameBudgetParameters().read(settings).updates, fit.updates));
+    GiOutput out = renderer.render(
+        {scene, changes, view, "many_lights", now, false, {.surfaceWork = fit.surfaces}});
     control.measured(out.stats);
     return out;
   };

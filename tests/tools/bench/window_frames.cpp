@@ -19,9 +19,11 @@ const GiOutput& WindowFrames::frame(const Scene& scene, const SceneChanges& chan
                                     const View& view, const std::string& edit) {
   const FrameBudgetParameters budget = frameBudgetParameters().read(settings_);
   Settings now = settings_;
-  now.set("updates", std::min(budget.updates, control_.updatesWithin(1e-3 * budget.frameTime)));
+  const FrameTimeControl::Work fit = control_.within(1e-3 * budget.frameTime);
+  now.set("updates", std::min(budget.updates, fit.updates));
   const double begin = benchSeconds();
-  output_ = renderer_.render({scene, changes, view, "many_lights", now});
+  output_ = renderer_.render(
+      {scene, changes, view, "many_lights", now, false, {.surfaceWork = fit.surfaces}});
   renderer_.backend().finish();
   const double end = benchSeconds();
   last_ = end - begin;

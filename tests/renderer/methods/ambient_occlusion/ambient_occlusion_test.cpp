@@ -212,8 +212,7 @@ TEST(AmbientOcclusion, IndirectLightIsNone) {
   FrameRenderer renderer(makeCpuBackend());
   const Settings settings = settingsOf(2.0f, "root", 2);
   const auto part = [&](LightPart which) {
-    return renderer
-        .render({scene, {}, kRoomView, "ambient_occlusion", settings, false, false, 0, which})
+    return renderer.render({scene, {}, kRoomView, "ambient_occlusion", settings, false, {}, which})
         .radiance->pixels();
   };
   settled(renderer, scene, SceneChanges::all(), kRoomView, settings, false);
