@@ -56,6 +56,8 @@ std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates
   const size_t count = std::min(order.size(), static_cast<size_t>(std::max(budget.vpls, 0)));
   std::partial_sort(order.begin(), order.begin() + static_cast<ptrdiff_t>(count), order.end(),
                     [&](size_t a, size_t b) {
+                      if (candidates[a].isFirst != candidates[b].isFirst)
+                        return candidates[a].isFirst;
                       const float pa = priority(a), pb = priority(b);
                       return pa != pb ? pa > pb : a < b;
                     });

@@ -183,6 +183,9 @@ int LiveLights::markStale(std::span<const MoverFinder::Mover> movers,
       sees = true;
       e.staleShare += hiddenShare(e.current, m.before) + hiddenShare(e.current, m.after);
     }
+    if (e.isOfLamp() &&
+        std::ranges::find(movers, e.wanted.id.light, &MoverFinder::Mover::node) != movers.end())
+      e.isMisplaced = e.movesNow = true;
     if (!sees || e.mapIsStale) continue;
     // A VPL that must move waits with its old map and its old database column.
     e.mapIsStale = e.moves() || !(spared && spared(e.current));
@@ -195,7 +198,7 @@ void LiveLights::loseMaps() {
   tableIsCurrent_ = false;
   std::erase_if(entries_, [](const Entry& e) { return !e.isWanted; });
   for (Entry& e : entries_) {
-    e.isLive = e.mapIsStale = e.isOff = false;
+    e.isLive = e.mapIsStale = e.isOff = e.isMisplaced = e.movesNow = e.isHidden = false;
     e.staleShare = 0.0f;
     if (e.wanted.id.bounce > 0) setShown(e.wanted.id.path(), false);
     e.hasMap = e.isFine = e.lacksMap = e.hasNoRoom = false;
@@ -218,11 +221,13 @@ std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& move
     const auto path = e.wanted.id.bounce > 0 ? ofPath.find(e.wanted.id.path()) : ofPath.end();
     const bool isOfPath = path != ofPath.end();
     if (!isOfPath && !e.mustRefresh()) continue;
+    if (e.waitsForRest) continue;
     Group& group = isOfPath ? groups[path->second] : groups.emplace_back();
     group.entries.push_back(i);
     RefreshCandidate& c = group.candidate;
     const float urgency =
         e.moves() || e.isOff ? 1.0f : std::clamp(e.staleShare, kLeastUrgency, 1.0f);
+    c.isFirst = e.follows;
     c.brightness =
         std::max(c.brightness, urgency * brightness(e.isWanted ? e.wanted.vpl : e.current));
     c.framesWaiting = std::max(c.framesWaiting, ++e.framesWaiting);
@@ -276,6 +281,7 @@ int LiveLights::refresh(ManyLightsKernels& kernels, const RefreshBudget& budget,
 int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
                         const RefreshWork& stale) {
   tableIsCurrent_ = false;
+  chooseFollowers(budget, moved);
   const std::vector<Group> groups = pendingGroups(moved, stale);
   std::vector<RefreshCandidate> candidates;
   for (const Group& group : groups) candidates.push_back(group.candidate);
@@ -298,12 +304,13 @@ int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
       e.current = e.wanted.vpl;
       e.current.slot = e.slot;
       e.isLive = true;
-      e.mapIsStale = e.hasMap = false;
+      e.mapIsStale = e.hasMap = e.isMisplaced = false;
       e.staleShare = 0.0f;
       ++refreshed;
     }
   }
   std::erase_if(entries_, [](const Entry& e) { return !e.isWanted && !e.isLive; });
+  hideMisplaced();
   return refreshed;
 }
 
@@ -314,9 +321,9 @@ const LightSampleTable& LiveLights::table() const {
   for (const Entry& e : entries_) {
     LightSample& sample = table_.samples.emplace_back();
     static_cast<SceneVpl&>(sample) = e.wanted;
-    if (e.isLive) sample.vpl = e.current;
+    sample.isLive = e.isLive && !e.isHidden;
+    if (sample.isLive) sample.vpl = e.current;
     sample.vpl.slot = e.slot;
-    sample.isLive = e.isLive;
     sample.isUpToDate = !e.moves() && !e.mapIsStale;
     sample.framesWaiting = e.framesWaiting;
   }

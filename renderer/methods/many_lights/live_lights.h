@@ -1,6 +1,8 @@
 // The VPLs that are shown, with their shadow maps, on their way to the wanted ones. The unit of
-// update is one VPL. Shadow maps are managed separately: the VPLs whose maps the view reads have
-// one, as far as memory allows (paper 1, 6.2).
+// update is one VPL. While a lamp is dragged, only samples that follow it are shown, as soon as
+// there are enough of them, and carry its flux: a picture with fewer samples is better than one
+// with the lamp at several places. Shadow maps are managed separately: the VPLs whose maps the view
+// reads have one, as far as memory allows (paper 1, 6.2).
 #pragma once
 
 #include <algorithm>
@@ -33,7 +35,8 @@ class LiveLights {
   void want(std::vector<SceneVpl> wanted, std::span<const VplId> paths = {});
   // Sets the brightness of all lights, which applies immediately.
   void setGains(LightGains gains);
-  // Shadow casters moved: maps that may show them become stale. `spared`, if given, tells that a
+  // Shadow casters moved: maps that may show them become stale, and samples of those that are lamps
+  // are misplaced until they are refreshed. `spared`, if given, tells that a
   // VPL's map does not change nevertheless. Returns the number of spared maps.
   int markStale(std::span<const MoverFinder::Mover> movers,
                 const std::function<bool(const shared::Vpl&)>& spared = {});
@@ -99,18 +102,24 @@ class LiveLights {
     SceneVpl wanted;
     float share = 1.0f;  // of the brightness of its set, in [0, 1]
     int slot = -1;
-    bool isWanted = true;     // else it is shown until its path is replaced
-    bool isLive = false;      // `current` is shown
-    bool mapIsStale = false;  // its map does not show a movement
-    bool isOff = false;       // only its brightness differs slightly from the wanted one
-    float staleShare = 0.0f;  // share of its map that is out of date
-    bool hasMap = false;      // of `current`
-    bool isFine = false;      // the kind of its map
-    bool lacksMap = false;    // it waits for a map
-    bool hasNoRoom = false;   // it needs a map, but no memory is left
+    bool isWanted = true;       // else it is shown until its path is replaced
+    bool isLive = false;        // `current` is shown
+    bool mapIsStale = false;    // its map does not show a movement
+    bool isOff = false;         // only its brightness differs slightly from the wanted one
+    bool isMisplaced = false;   // its lamp has moved since it was refreshed
+    bool movesNow = false;      // its lamp has moved since the last frame
+    bool follows = false;       // it is refreshed in each frame of a drag of its lamp
+    bool waitsForRest = false;  // it is not refreshed during the drag
+    bool isHidden = false;      // live, but those that follow stand for it
+    float staleShare = 0.0f;    // share of its map that is out of date
+    bool hasMap = false;        // of `current`
+    bool isFine = false;        // the kind of its map
+    bool lacksMap = false;      // it waits for a map
+    bool hasNoRoom = false;     // it needs a map, but no memory is left
     int framesWaiting = 0;
     shared::Vpl current{};
     bool moves() const;  // it is not at its wanted position
+    bool isOfLamp() const { return wanted.isSample && wanted.id.bounce == 0; }
     bool mustRefresh() const { return moves() || mapIsStale || isOff; }
     bool isPending() const { return mustRefresh() || lacksMap; }
   };
@@ -121,6 +130,8 @@ class LiveLights {
   };
   std::vector<Group> pendingGroups(const RefreshWork& moved, const RefreshWork& stale);
   void pairUp(std::vector<Group>& groups) const;
+  void chooseFollowers(const RefreshBudget& budget, const RefreshWork& moved);
+  void hideMisplaced();
   void keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const;
   // An indirect path, and whether its wanted or its old version is shown.
   struct ShownPath {
@@ -142,9 +153,12 @@ class LiveLights {
   std::vector<uint32_t> spreadTurns() const;
   bool needsMap(const Entry& e) const { return table_.needsMap[static_cast<size_t>(e.slot)] != 0; }
   bool isCoarse(const Entry& e) const { return e.hasMap && !e.isFine && needsMap(e); }
-  bool isShown(const Entry& e) const { return e.isLive && (e.hasMap || !onlyMapped_); }
+  bool isShown(const Entry& e) const {
+    return e.isLive && !e.isHidden && (e.hasMap || !onlyMapped_);
+  }
 
   LightGains gains_;
+  float followShare_ = 0.0f;  // of the samples of dragged lamps
   // at the reference brightness of their lights
   std::vector<Entry> entries_;          // in the order of the wanted ones, then unwanted ones
   std::vector<ShownPath> pathIsShown_;  // of the wanted set, sorted

@@ -349,5 +349,55 @@ TEST_F(LiveLightsTest, NoneStarvesWhileAnObjectMoves) {
   EXPECT_LT(oldest, 600);
 }
 
+// While a lamp is dragged, the samples that follow it are the same in each frame and carry all its
+// light; the others are not shown where the lamp was.
+TEST_F(LiveLightsTest, OnlySamplesThatFollowADraggedLampAreShown) {
+  const NodeId lamp = 1;
+  const auto place = [](float x) { return Bounds{vec3(x, -1, -1), vec3(x + 1, 101, 1)}; };
+  const auto shown = [&] {
+    std::vector<uint32_t> ids;
+    for (const LightSample& s : lights.table().samples)
+      if (s.isLive) ids.push_back(s.id.index);
+    return ids;
+  };
+  lights.want(samples(lamp, 100, 10.0f, 0.0f));
+  lights.refresh(kernels, {100});
+  ASSERT_EQ(shown().size(), 100u);
+  std::vector<uint32_t> first;
+  for (int frame = 1; frame <= 5; ++frame) {
+    SCOPED_TRACE(frame);
+    const auto x = static_cast<float>(frame);
+    const MoverFinder::Mover mover{place(x - 1.0f), place(x), lamp};
+    lights.want(samples(lamp, 100, 10.0f, x));
+    lights.markStale({&mover, 1});
+    // A budget that varies exchanges none.
+    lights.refresh(kernels, {frame % 2 == 0 ? 26 : 20});
+    EXPECT_NEAR(checkedSum(), 10.0f, 1e-4f);
+    for (const shared::Vpl& v : lights.table().summedInOrder()) EXPECT_EQ(v.position.x, x);
+    if (frame == 1) first = shown();
+    EXPECT_EQ(shown(), first);
+    EXPECT_EQ(first.size(), 12u);
+  }
+  // At rest, the others follow.
+  for (int frame = 0; frame < 5; ++frame) {
+    lights.refresh(kernels, {20});
+    EXPECT_NEAR(checkedSum(), 10.0f, 1e-4f);
+  }
+  EXPECT_EQ(shown().size(), 100u);
+  EXPECT_EQ(lights.pending(), 0);
+}
+
+// With too few that follow, the lamp stays visible as a whole.
+TEST_F(LiveLightsTest, FewSamplesDoNotStandForADraggedLamp) {
+  const MoverFinder::Mover mover{Bounds{vec3(0), vec3(1)}, Bounds{vec3(1), vec3(2)}, 1};
+  lights.want(samples(1, 100, 10.0f, 0.0f));
+  lights.refresh(kernels, {100});
+  lights.want(samples(1, 100, 10.0f, 1.0f));
+  lights.markStale({&mover, 1});
+  lights.refresh(kernels, {8});
+  EXPECT_EQ(liveSamples(lights.table().samples).size(), 100u);
+  EXPECT_NEAR(checkedSum(), 10.0f, 1e-4f);
+}
+
 }  // namespace
 }  // namespace lamplighter
