@@ -10,7 +10,6 @@
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
 #include "renderer/sampling/path_tracing.h"
-#include "renderer/surface_light/between.h"
 
 namespace lamplighter {
 namespace {
@@ -21,6 +20,9 @@ constexpr uint32_t kPartialRays = 24, kPartialSet = 0x52;
 constexpr uint32_t kProbeRays = 8;
 constexpr float kLarge = 0.3f;  // longest side [m]
 constexpr float kLift = 0.04f;  // of rays along a surface [edges of elements]
+
+// Corners whose light is summed together, in registers and the nearest cache.
+constexpr size_t kCornersASum = 1024;
 
 // Of so many elements one shows the light of all until that of each is found: of more where they
 // are many for the rays of a call. An element of a new light takes about kRaysALeader.
@@ -71,10 +73,14 @@ bool seesCorner(const DirectFactors::Scene& now, uint32_t leaf, size_t corner,
   return !now.rays.occluded({from, 0.0f, to - from, 1.0f});
 }
 
-Bounds boundsOf(const DirectFactors::Scene& now, uint32_t leaf) {
-  Bounds out;
-  for (const SurfaceSpot& spot : spotsOf(now, leaf)) out.add(spot.position);
-  return out;
+Ball ballAround(const DirectFactors::Scene& now, uint32_t leaf) {
+  const uint32_t object = now.mesh.objectOfLeaf(leaf);
+  Bounds bounds;
+  for (const SurfacePlace& place : now.mesh.placesOfLeaf(leaf))
+    bounds.add(spotAt(now.scene, object, place).position);
+  for (const uint32_t sample : now.mesh.samplesOfLeaf(leaf))
+    bounds.add(spotAt(now.scene, object, now.mesh.placesOfSample(sample)[0]).position);
+  return Ball(bounds);
 }
 
 }  // namespace
@@ -148,6 +154,7 @@ uint64_t DirectFactors::update(const Scene& now, bool isNewMesh,
   std::vector<bool> isMoved(now.mesh.objects(), false);
   for (const uint32_t o : movedObjects) isMoved[o] = true;
   const size_t columnsBefore = columns_.size();
+  findBalls(now, isNewMesh, isMoved);
   Work work{now, matchColumns(now, isNewMesh, isMoved)};
   if (now.mask != 0) blockers_.update(now.scene, isNewMesh || mask_ == 0, movedObjects);
   mask_ = now.mask;
@@ -176,6 +183,17 @@ uint64_t DirectFactors::update(const Scene& now, bool isNewMesh,
   return work.traced;
 }
 
+// Of elements whose place is not known, or another one.
+void DirectFactors::findBalls(const Scene& now, bool isNewMesh, const std::vector<bool>& isMoved) {
+  const size_t known = isNewMesh ? 0 : balls_.size();
+  balls_.resize(now.mesh.leaves(), Ball(vec3(0.0f)));
+  tbb::parallel_for(size_t{0}, balls_.size(), [&](size_t k) {
+    const uint32_t object = now.mesh.objectOfLeaf(static_cast<uint32_t>(k));
+    if (object != SurfaceMesh::kUnused && (k >= known || isMoved[object]))
+      balls_[k] = ballAround(now, static_cast<uint32_t>(k));
+  });
+}
+
 // Marks what may differ.
 void DirectFactors::outdate(const Work& work, const std::vector<bool>& isMoved,
                             std::span<const Bounds> boxes) {
@@ -188,15 +206,13 @@ void DirectFactors::outdate(const Work& work, const std::vector<bool>& isMoved,
       return;
     }
     const bool isOther = k >= wasMixed_.size() || wasMixed_[k] != now.isMixed[k];
-    std::optional<Ball> ball;
     for (size_t e = 0; e < work.emitters.size(); ++e) {
       if (work.isNew[e] || isMoved[object] || isOther) {
         setStale(k, e);
       } else if (!boxes.empty() && !isStale(k, e)) {
-        if (!ball) ball = Ball(boundsOf(now, leaf));
         const Bounds& light = work.emitters[e].bounds();
         if (light.empty() || std::ranges::any_of(boxes, [&](const Bounds& b) {
-              return mayBeBetween(*ball, Ball(light), Ball(b));
+              return mayBeBetween(balls_[k], Ball(light), Ball(b));
             }))
           setStale(k, e);
       }
@@ -375,21 +391,30 @@ void DirectFactors::spread(const Work& work, uint32_t elements) {
 }
 
 void DirectFactors::sum(const LightSet& lights, std::vector<vec3>& out) const {
-  tbb::parallel_for(size_t{0}, out.size(), [&](size_t k) {
-    vec3 sum(0.0f);
+  const size_t blocks = (out.size() + kCornersASum - 1) / kCornersASum;
+  tbb::parallel_for(size_t{0}, blocks, [&](size_t block) {
+    const size_t first = block * kCornersASum;
+    const size_t count = std::min(kCornersASum, out.size() - first);
+    std::array<std::array<float, kCornersASum>, 3> sums{};
     for (size_t e = 0; e < columns_.size(); ++e) {
       const Column& column = columns_[e];
       const vec3 brightness = lights.emitters()[e].brightness();
-      sum += column.isColoured ? brightness * vec3(column.factors[3 * k], column.factors[3 * k + 1],
-                                                   column.factors[3 * k + 2])
-                               : brightness * column.factors[k];
+      const size_t channels = column.isColoured ? 3 : 1;
+      const float* factors = &column.factors[channels * first];
+      for (size_t c = 0; c < 3; ++c) {
+        const float scale = brightness[static_cast<int>(c)];
+        if (scale == 0.0f) continue;
+        float* channel = sums[c].data();
+        const float* from = factors + c % channels;
+        for (size_t k = 0; k < count; ++k) channel[k] += scale * from[channels * k];
+      }
     }
-    out[k] = sum;
+    for (size_t k = 0; k < count; ++k) out[first + k] = {sums[0][k], sums[1][k], sums[2][k]};
   });
 }
 
 size_t DirectFactors::bytes() const {
-  size_t bytes = stale_.size() * sizeof(uint64_t);
+  size_t bytes = stale_.size() * sizeof(uint64_t) + balls_.size() * sizeof(Ball);
   for (const Column& column : columns_) bytes += column.factors.size() * sizeof(float);
   return bytes;
 }

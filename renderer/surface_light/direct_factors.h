@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/sampling/vpl_set.h"
+#include "renderer/surface_light/between.h"
 #include "renderer/surface_light/blockers.h"
 #include "renderer/surface_light/emitter_factor.h"
 
@@ -54,6 +55,7 @@ class DirectFactors {
   struct Work;
   std::vector<uint8_t> matchColumns(const Scene& now, bool isNewMesh,
                                     const std::vector<bool>& isMoved);
+  void findBalls(const Scene& now, bool isNewMesh, const std::vector<bool>& isMoved);
   void outdate(const Work& work, const std::vector<bool>& isMoved, std::span<const Bounds> boxes);
   std::vector<uint32_t> choose(const Work& work, uint64_t mostRays);
   void find(Work& work, uint32_t leaf);
@@ -74,6 +76,7 @@ class DirectFactors {
 
   std::vector<Column> columns_;  // by emitter
   std::vector<uint8_t> wasMixed_;
+  std::vector<Ball> balls_;      // by element: around it
   std::vector<uint64_t> stale_;  // by element
   size_t words_ = 0, staleLeaves_ = 0;
   uint32_t next_ = 0;  // the element at which the next call goes on
