@@ -1,6 +1,7 @@
 // Plays one recording (tests/support/level_recording.h) on a level with one method, paced as in the
 // editor's window, and compares every frame with the reference.
 //   lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]
+//   lamplighter_methods_table LEVEL METHOD strip FILE.png   (drag_strip.h)
 // METHOD: a method, with its parameters as in "many_lights,indirect=samples"; "truth" writes the
 // references, pictures of the path tracer after each step, into the folder REFERENCES. Prints a row
 // of CSV for each step; to CURVES it appends the error over time.
@@ -25,6 +26,8 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/level_recording.h"
 #include "tests/support/render.h"
+#include "tests/tools/methods_table/drag_strip.h"
+#include "tests/tools/methods_table/shown_state.h"
 
 namespace lamplighter {
 namespace {
@@ -59,24 +62,6 @@ void writeReferences(const LevelRecording& recording, const fs::path& folder) {
     writeExr(test::renderReference(scene, state.view, kPaths, kBounces, kSeed),
              referenceFile(folder, step));
   }
-}
-
-void show(Session& session, const LevelRecording& recording, const LevelRecording::State& state) {
-  const Scene& scene = session.document().scene;
-  const auto moveTo = [&](NodeId id, const vec3& position) {
-    Transform local = scene.find(id)->local;
-    if (local.translation == position) return;
-    local.translation = position;
-    session.setNodeTransform(id, local);
-  };
-  moveTo(recording.lamp(), state.lamp);
-  moveTo(recording.box(), state.box);
-  AreaLight light = *scene.find(recording.lamp())->area;
-  if (light.radiance != state.radiance) {
-    light.radiance = state.radiance;
-    session.setAreaLight(recording.lamp(), light);
-  }
-  session.setView(state.view);
 }
 
 // Of the process, so far.
@@ -131,7 +116,8 @@ void play(const std::string& level, const std::string& method, const LevelRecord
 
 int run(int argc, char** argv) {
   if (argc < 4) {
-    std::cerr << "usage: lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]\n";
+    std::cerr << "usage: lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]\n"
+                 "       lamplighter_methods_table LEVEL METHOD strip FILE.png\n";
     return 2;
   }
   const fs::path file = argv[1];
@@ -141,6 +127,10 @@ int run(int argc, char** argv) {
   const LevelRecording recording(std::move(scene), view);
   if (method == "truth") {
     writeReferences(recording, argv[3]);
+    return 0;
+  }
+  if (argc == 5 && std::string_view(argv[3]) == "strip") {
+    writeDragStrip(file.stem().string(), method, recording, argv[4]);
     return 0;
   }
   std::ofstream curves;
