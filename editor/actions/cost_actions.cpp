@@ -1,11 +1,13 @@
-// Actions for the cost and the error of the picture: error meter, timeline, presets.
+// Actions for the cost and the error of the picture: error meter, timeline, presets, memory.
 #include <cmath>
 
 #include "editor/actions/arguments.h"
+#include "editor/budgets/memory_limit.h"
 #include "editor/presets/presets.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 namespace {
@@ -65,6 +67,19 @@ void addCostActions(ActionRegistry& r) {
                }};
   r.add({"timeline.clear", "Clear the timeline", "", "Deletes the recorded frame times.", "",
          [](Session& s, const Arguments&) { s.watch().timeline.clear(); }, nullptr, true});
+  r.add({"render.memory", "Memory", "MIB",
+         "Sets the sum of all memory limits of the method in MiB. Each limit keeps its proportion. "
+         "With less memory, light on surfaces is coarser and shadows are less sharp.",
+         "", [](Session& s, const Arguments& a) {
+           const MethodInfo& method = findMethod(s.document().render.method);
+           const MemoryRange range = memoryRange(method);
+           if (range.most == 0)
+             throw InputError(method.name, "has no memory limit", "choose another method");
+           RenderSettings settings = s.document().render;
+           settings.values = withMemoryLimit(method, settings.values,
+                                             wholeNumberOf(a[0], range.least, range.most));
+           s.setRender(settings);
+         }});
   for (const Preset& preset : presets()) {
     r.add({"preset." + preset.name, preset.label, "", preset.help, "",
            [&preset](Session& s, const Arguments&) {

@@ -8,7 +8,8 @@
 namespace lamplighter {
 namespace {
 
-// The values of one parameter in draft, work and final. The values of work are the defaults.
+// The values of one parameter in draft, work and final. The values of work are the defaults. The
+// number of bounces and the time of a frame are no matter of quality: users set them beside it.
 struct Row {
   const ParameterSpec& spec;
   ParameterValue draft, final;
@@ -18,12 +19,10 @@ const std::vector<Row>& rows() {
   const auto& p = manyLightsParameters();
   static const std::vector<Row> all{
       {p["vpls"], 100, 2000},
-      {p["bounces"], 1, 3},
       {p["importance"], 4, 16},
       {p["map_resolution"], 32, 128},
       {p["settled_map_scale"], 1, 6},
       {p["map_memory"], 64, 2048},
-      {p["frame_time"], 25.0f, 200.0f},
       {p["light_map_texel"], 0.2f, 0.05f},
       {p["block"], std::string("8"), std::string("2")},
       {p["antialias"], 1, 16},

@@ -1,5 +1,5 @@
-// Presets of budgets and quality parameters for all methods: draft for fast feedback, work for
-// editing, final for results.
+// Presets of quality for all methods: draft for fast feedback, work for editing, final for results.
+// They leave bounces, frame time and exposure as they are.
 #pragma once
 
 #include <string>

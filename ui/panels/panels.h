@@ -65,9 +65,12 @@ void timelineSection(const PanelContext& ui, TimelineState& state, Requests& req
 // document. Returns the new value if it changed.
 std::optional<ParameterValue> parameterField(const PanelContext& ui, const ParameterSpec& spec,
                                              const Settings& settings, bool tracks);
-// The method's parameters of a group, under a collapsible header. Draws nothing if the group is
-// empty.
-void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);
+// A row for a parameter of the document, with its cost if it is a budget. Right-click resets it.
+void parameterRow(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec);
+// The method's parameters of a group but those named, under a collapsible header that is closed at
+// first. Draws nothing if none is left.
+void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group,
+                      std::span<const std::string_view> except);
 
 // Histogram of the picture's brightness, with exposure and tone mapper: a window in the lower right
 // corner of `view`, if it is switched on. Returns the covered rectangle.

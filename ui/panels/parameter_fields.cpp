@@ -86,6 +86,8 @@ void chosenLine(const PanelContext& ui, const ParameterSpec& spec) {
   tooltip(ui, "What the method chose for this scene, and why.");
 }
 
+}  // namespace
+
 void parameterRow(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec) {
   labelledRow(ui, spec.label.c_str(), spec.help.c_str());
   const auto value = parameterField(ui, spec, ui.session.document().render.values, true);
@@ -102,15 +104,14 @@ void parameterRow(const PanelContext& ui, const MethodInfo& method, const Parame
   costLine(ui, method, spec);
 }
 
-}  // namespace
-
-void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group) {
+void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group,
+                      std::span<const std::string_view> except) {
   const auto& all = method.parameters;
-  const auto isInGroup = [&](const ParameterSpec& spec) { return spec.group == group; };
+  const auto isInGroup = [&](const ParameterSpec& spec) {
+    return spec.group == group && std::ranges::find(except, spec.name) == except.end();
+  };
   if (std::none_of(all.begin(), all.end(), isInGroup)) return;
-  // The group of the most used parameters is open at first. All groups would not fit the panel.
-  const bool openAtFirst = group == ParameterGroup::lightSamples;
-  if (!section(ui, labelOf(group), openAtFirst)) return;
+  if (!section(ui, labelOf(group), false)) return;
   for (const ParameterSpec& spec : all)
     if (isInGroup(spec)) parameterRow(ui, method, spec);
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "editor/budgets/memory_limit.h"
 #include "editor/presets/presets.h"
 #include "renderer/registry/registry.h"
 #include "ui/panels/panels.h"
@@ -8,6 +9,10 @@
 
 namespace lamplighter {
 namespace {
+
+// Parameters that are not in the section of their group, because they come first.
+constexpr std::string_view kFirst[] = {"bounces", "frame_time"};
+constexpr int kMostMemory = 65536;  // of the slider [MiB]
 
 void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   labelledRow(ui, "Method", current.citation.c_str());
@@ -26,9 +31,11 @@ void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   ui.session.setRender(render);
 }
 
-// Preset buttons side by side. The active preset is highlighted.
-void presetRow(const PanelContext& ui, Requests& requests) {
-  labelledRow(ui, "Preset", "Sets all budgets and quality parameters at once, as one undo step.");
+// Buttons of presets side by side. The active one is highlighted.
+void qualityRow(const PanelContext& ui, Requests& requests) {
+  labelledRow(ui, "Quality",
+              "Sets the numbers of light samples, sizes of shadow maps, antialiasing and repair at "
+              "once, as one undo step.");
   const float gap = ui.px(4);
   const float width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) /
                                  static_cast<float>(presets().size()));
@@ -42,18 +49,32 @@ void presetRow(const PanelContext& ui, Requests& requests) {
   }
 }
 
-}  // namespace
+// All memory limits of the method in one, and what is used of them.
+void memoryRow(const PanelContext& ui, const MethodInfo& method) {
+  const MemoryRange range = memoryRange(method);
+  if (range.most == 0) return;
+  const std::string help =
+      "Largest memory for what the method keeps: the sum of its limits, which stay in proportion. "
+      "With less memory, light on surfaces is coarser and shadows are less sharp.";
+  labelledRow(ui, "Memory", help.c_str());
+  RenderSettings render = ui.session.document().render;
+  int total = memoryLimit(method, render.values);
+  const int most = std::max(total, std::min(range.most, kMostMemory));
+  const bool isSet = valueSlider("##memory", total, range.least, most, "%d MiB",
+                                 ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  ui.name("memory");
+  trackEdit(ui, "Change memory");
+  tooltip(ui, help + " Ctrl+click to type a value. Under Budgets each limit can be set by itself.");
+  if (isSet) {
+    render.values = withMemoryLimit(method, render.values, total);
+    ui.session.setRender(render);
+  }
+  const uint64_t used = memoryUsed(method, ui.session.output().stats) >> 20;
+  rightAligned(grouped(static_cast<long long>(used)) + " MiB used", theme::kTextDim);
+  ui.name("memory/used");
+}
 
-void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
-  ui.prefix = "render/";
-  const auto& all = methods();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const MethodInfo& m) {
-    return m.name == ui.session.document().render.method;
-  });
-  if (found == all.end()) return;
-  methodCombo(ui, *found);
-  presetRow(ui, requests);
-
+void exposureRow(const PanelContext& ui) {
   labelledRow(ui, "Exposure",
               "Exposure in EV: each step of 1 doubles the brightness of the picture. The lighting "
               "does not change.");
@@ -62,8 +83,27 @@ void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
   ui.name("exposure");
   trackEdit(ui, "Change exposure");
   if (exposed) ui.session.setRender(render);
+}
 
-  for (const ParameterGroup group : kParameterGroups) parameterSection(ui, *found, group);
+}  // namespace
+
+// What is set most often comes first; all other parameters are in sections that are closed at
+// first.
+void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
+  ui.prefix = "render/";
+  const auto& all = methods();
+  const auto found = std::ranges::find(all, ui.session.document().render.method, &MethodInfo::name);
+  if (found == all.end()) return;
+  const MethodInfo& method = *found;
+  qualityRow(ui, requests);
+  for (const std::string_view name : kFirst)
+    if (const ParameterSpec* spec = findParameter(method.parameters, name))
+      parameterRow(ui, method, *spec);
+  memoryRow(ui, method);
+  exposureRow(ui);
+
+  if (section(ui, "Method")) methodCombo(ui, method);
+  for (const ParameterGroup group : kParameterGroups) parameterSection(ui, method, group, kFirst);
   compareSection(ui, requests);
   timelineSection(ui, state, requests);
 }
