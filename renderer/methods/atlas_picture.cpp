@@ -30,16 +30,14 @@ AtlasPicture::Sample AtlasPicture::sampleOf(const FrameInputs& in, const TexelIr
       const bool isSame = i < before.size() && before[i].object == p.object &&
                           before[i].triangle == p.triangle && before[i].position == p.position &&
                           std::ranges::find(movedObjects, p.object) == movedObjects.end();
-      if (isSame) {
-        out = before[i];
-        continue;
-      }
       out.position = p.position;
       out.object = p.object;
       out.triangle = p.triangle;
       const SeenTriangle seen(in.scene, p);
       if (!seen.isSound) continue;
-      out.blend = light.blendAt(in.scene, rays, p.object, p.triangle, seen.isBack, p.position);
+      out.blend =
+          isSame ? before[i].blend
+                 : light.blendAt(in.scene, rays, p.object, p.triangle, seen.isBack, p.position);
       if (!out.blend.isAny()) continue;
       const PixelReflectance r = reflectanceOf(in.scene, p, seen.weights, view_.eye, options);
       const float even = withoutLobes ? 1.0f - PixelLobes::tracedShare(r.roughness) : 1.0f;
@@ -67,6 +65,11 @@ std::vector<uint32_t> AtlasPicture::texels() const {
   return out;
 }
 
+void AtlasPicture::showView(const FrameInputs& in, bool& gbufferIsCurrent) {
+  if (!gbufferIsCurrent) in.backend.renderGBuffer(view_, vec2(0.0f));
+  gbufferIsCurrent = true;
+}
+
 std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
                                                    const std::shared_ptr<RadianceImage>& picture,
                                                    const TexelIrradiance& light, int antialias,
@@ -89,9 +92,18 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     samples_.resize(std::min<size_t>(samples_.size(), 1));
   }
   if (samples_.empty()) {
-    if (!gbufferIsCurrent) in.backend.renderGBuffer(view_, vec2(0.0f));
-    gbufferIsCurrent = true;
+    showView(in, gbufferIsCurrent);
     samples_.push_back(sampleOf(in, light, options, before, changes.movedObjects, false));
+    plainLobes_ = {};
+    hasPlainLobes_ = false;
+    shown_ = nullptr;
+  } else if (!hasPlainLobes_ && changes.none() && samples_.size() == 1) {
+    // Mirrors from the second frame at rest on: their rays would be lost in each frame of a motion.
+    showView(in, gbufferIsCurrent);
+    samples_.front() = sampleOf(in, light, options, samples_.front(), {}, true);
+    plainLobes_.restart(view_, 1, seed);
+    plainLobes_.add(in.scene, in.services.rays(), mirror, in.backend.hostGBuffer(), options);
+    hasPlainLobes_ = true;
     shown_ = nullptr;
   } else if (light.isDone() && antialias > 1 && static_cast<int>(samples_.size()) <= antialias) {
     in.backend.renderGBuffer(view_, pixelJitter(static_cast<int>(samples_.size()) - 1, antialias));
@@ -129,7 +141,7 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
       }
     }
   });
-  if (isSmooth) lobes_.addTo(in.scene, mirror, sum);
+  (isSmooth ? lobes_ : plainLobes_).addTo(in.scene, mirror, sum);
   under_ = picture;
   shownOf_ = shownOf;
   shown_ = std::make_shared<HostImage>(std::move(sum));

@@ -24,10 +24,11 @@ class AtlasPicture {
                                        bool& gbufferIsCurrent);
   // Whether the last picture has all shifted ones.
   bool isDone(int antialias) const {
-    return antialias <= 1 || (shownOf_ == antialias && framesLeft(antialias) == 0);
+    return framesLeft(antialias) == 0 && (antialias <= 1 || shownOf_ == antialias);
   }
   int framesLeft(int antialias) const {
-    return antialias <= 1 ? 0 : antialias + 1 - static_cast<int>(samples_.size());
+    if (antialias <= 1) return hasPlainLobes_ ? 0 : 1;
+    return antialias + 1 - static_cast<int>(samples_.size());
   }
   void forget() { *this = AtlasPicture(); }
   const View& view() const { return view_; }
@@ -43,18 +44,20 @@ class AtlasPicture {
     vec3 reflectance{0.0f};  // share of even light, times π
   };
   using Sample = std::vector<Pixel>;
-  // `before`: a sample of which pixels that show the same place of an object that did not move
-  // stay; or empty. `withoutLobes`: PixelLobes adds what these reflect.
+  // `before`: a sample of which pixels that show the same place of an object that did not move keep
+  // their texels; or empty. `withoutLobes`: PixelLobes adds what these reflect.
   Sample sampleOf(const FrameInputs& in, const TexelIrradiance& light,
                   const SurfacePictureOptions& options, const Sample& before,
                   std::span<const uint32_t> movedObjects, bool withoutLobes) const;
+  void showView(const FrameInputs& in, bool& gbufferIsCurrent);
 
   View view_;
   SurfacePictureOptions options_;
   uint32_t version_ = 0, texelVersion_ = 0;  // of the light
   RenderSceneChanges unseen_;
-  std::vector<Sample> samples_;  // the first without a shift
-  PixelLobes lobes_;             // of the others
+  std::vector<Sample> samples_;    // the first without a shift
+  PixelLobes plainLobes_, lobes_;  // of the first; of the others
+  bool hasPlainLobes_ = false;     // else the first has even light in their place
   std::shared_ptr<RadianceImage> under_, shown_;
   int shownOf_ = 0;    // samples
   int antialias_ = 0;  // for which the samples are shifted

@@ -38,7 +38,8 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   recordsAreOutdated_ = true;
   keepsPixels_ = !isOtherView && picture == options_ && !light_.hasOtherElements() &&
                  !changes.materials && plain_.samples() == 1;
-  if (!keepsPixels_) plain_ = {};
+  keepsPixels_ = keepsPixels_ && !hasPlainLobes_;
+  if (!keepsPixels_) forgetPlain();
   smooth_ = {};
   shown_ = nullptr;
   view_ = in.view;
@@ -54,12 +55,18 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
   if (antialias > 1 && smooth_.samples() < antialias && records_.isDone())
     addSample(in, smooth_, antialias, gbufferIsCurrent);
   const int shown = smooth_.samples() == antialias ? antialias : 1;
+  // Mirrors from the second frame at rest on: their rays would be lost in each frame of a motion.
+  if (shown <= 1 && isAtRest_ && !hasPlainLobes_) {
+    forgetPlain();
+    hasPlainLobes_ = true;
+    shown_ = nullptr;
+  }
   if (shown <= 1 && (plain_.samples() == 0 || keepsPixels_))
     addSample(in, plain_, 1, gbufferIsCurrent);
   if (shown_ && picture == under_ && shown == antialias_) return shown_;
   Image sum = picture->pixels();
   (shown > 1 ? smooth_ : plain_).addTo(light_.values(), records_.values(), sum);
-  if (shown > 1) lobes_.addTo(in.scene, MeshMirror(gatherScene(in), light_), sum);
+  (shown > 1 ? lobes_ : plainLobes_).addTo(in.scene, MeshMirror(gatherScene(in), light_), sum);
   under_ = picture;
   antialias_ = shown;
   shown_ = std::make_shared<HostImage>(std::move(sum));
@@ -94,7 +101,8 @@ void BouncedPicture::updateRecords(const FrameInputs& in, bool& gbufferIsCurrent
     showView(in, gbufferIsCurrent);
     records_.choose(gatherScene(in), light_, in.backend.hostGBuffer(), raysLeft_);
     recordsAreOutdated_ = false;
-    plain_ = smooth_ = {};
+    forgetPlain();
+    smooth_ = {};
   } else if (isMissing) {
     records_.retrace(gatherScene(in), raysLeft_);
   } else if (!hasOtherLight_) {
@@ -109,12 +117,20 @@ void BouncedPicture::showView(const FrameInputs& in, bool& gbufferIsCurrent) {
   gbufferIsCurrent = true;
 }
 
+void BouncedPicture::forgetPlain() {
+  plain_ = {};
+  plainLobes_ = {};
+  hasPlainLobes_ = false;
+}
+
 void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
                                bool& gbufferIsCurrent) {
+  PixelLobes& lobes = samples > 1 ? lobes_ : plainLobes_;
+  const bool withLobes = samples > 1 || hasPlainLobes_;
   const bool keepsPixels = samples == 1 && std::exchange(keepsPixels_, false);
   if (pixels.samples() == 0) {
     pixels.restart(view_.width, view_.height, samples);
-    if (samples > 1) lobes_.restart(view_, samples, seed_);
+    lobes.restart(view_, samples, seed_);
   }
   if (samples == 1) {
     showView(in, gbufferIsCurrent);
@@ -126,10 +142,9 @@ void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, in
   if (keepsPixels && pixels.samples() == 1)
     pixels.replaceChanged(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
   else
-    pixels.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_, samples > 1);
-  if (samples > 1)
-    lobes_.add(in.scene, in.services.rays(), MeshMirror(gatherScene(in), light_), gbuffer,
-               options_);
+    pixels.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_, withLobes);
+  if (withLobes)
+    lobes.add(in.scene, in.services.rays(), MeshMirror(gatherScene(in), light_), gbuffer, options_);
 }
 
 }  // namespace lamplighter

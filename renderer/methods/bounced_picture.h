@@ -32,7 +32,7 @@ class BouncedPicture {
   // Whether the light has all rays, and a picture that is the mean of so many is complete.
   bool isDone(int antialias) const {
     return light_.isDone() && records_.isDone() &&
-           (antialias <= 1 || smooth_.samples() == antialias);
+           (antialias <= 1 ? hasPlainLobes_ : smooth_.samples() == antialias);
   }
   // Estimate of the frames until isDone(), without further changes.
   int framesLeft(int antialias) const;
@@ -43,7 +43,8 @@ class BouncedPicture {
   InspectedLinks links() const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const {
-    return records_.bytes() + plain_.bytes() + smooth_.bytes() + lobes_.bytes();
+    return records_.bytes() + plain_.bytes() + plainLobes_.bytes() + smooth_.bytes() +
+           lobes_.bytes();
   }
   void forget() { *this = BouncedPicture(); }
 
@@ -53,6 +54,7 @@ class BouncedPicture {
   }
   void showView(const FrameInputs& in, bool& gbufferIsCurrent);
   void updateRecords(const FrameInputs& in, bool& gbufferIsCurrent);
+  void forgetPlain();
   void addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
                  bool& gbufferIsCurrent);
 
@@ -69,7 +71,8 @@ class BouncedPicture {
   uint32_t seed_ = 0;
   GatherProjection projection_ = GatherProjection::hemisphere;
   SurfacePicture plain_, smooth_;  // without a shift; antialiased
-  PixelLobes lobes_;               // of smooth_
+  PixelLobes plainLobes_, lobes_;  // of both
+  bool hasPlainLobes_ = false;     // else plain_ has even light in their place
   // What was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;
   int antialias_ = 0;
