@@ -1,11 +1,14 @@
 #include "renderer/path_repair/edge_resolve.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/random.h"
 #include "renderer/methods/pixel_jitter.h"
 
 namespace lamplighter {
@@ -14,6 +17,8 @@ namespace {
 constexpr int kSamples = 8;  // rays for each pixel at an edge
 // Rays of a frame: a few hundredths of a second.
 constexpr size_t kRaysAFrame = size_t{1} << 17;
+// While something moves: a few thousandths.
+constexpr size_t kRaysMoving = size_t{1} << 15;
 // Two points lie on one surface if one is off the other's plane by less than this share of their
 // distance, so that curved surfaces are not divided, and the cosine between their normals is
 // larger.
@@ -75,32 +80,81 @@ size_t bestAround(const GBufferView& g, int x, int y, const Hit& hit, const vec3
 
 void EdgeResolve::restart() {
   rows_.clear();
+  keys_.clear();
   next_ = smoothRows_ = 0;
   result_ = from_ = nullptr;
 }
 
-void EdgeResolve::findEdges(const FrameInputs& in) {
-  const GBufferView g = in.backend.hostGBuffer();
-  rows_.assign(static_cast<size_t>(g.height()), {});
-  next_ = 0;
+// By pixel: whether it shows something else than at the last call, or an object that moved.
+std::vector<uint8_t> EdgeResolve::findChanges(const FrameInputs& in, const GBufferView& g) {
+  std::vector<uint8_t> isMoved(in.scene.objects.size(), 0);
+  for (const uint32_t o : in.changes.movedObjects) isMoved[o] = 1;
+  const size_t pixels = static_cast<size_t>(g.width()) * static_cast<size_t>(g.height());
+  // Materials may cut other holes.
+  const bool isKnown = keys_.size() == pixels && !in.changes.materials;
+  keys_.resize(pixels);
+  std::vector<uint8_t> isOther(pixels, 1);
   tbb::parallel_for(0, g.height(), [&](int y) {
     for (int x = 0; x < g.width(); ++x) {
-      bool isEdge = false;
-      forEachAround(g, x, y,
-                    [&](int u, int v, size_t) { isEdge = isEdge || differ(g, x, y, u, v); });
-      if (isEdge) rows_[static_cast<size_t>(y)].push_back({x, {}});
+      const size_t i =
+          static_cast<size_t>(y) * static_cast<size_t>(g.width()) + static_cast<size_t>(x);
+      uint32_t key = 0;
+      bool moves = false;
+      if (g.isHit(x, y)) {
+        const GBufferPoint p = g.at(x, y);
+        key = hash4(std::bit_cast<uint32_t>(p.position.x), std::bit_cast<uint32_t>(p.position.y),
+                    std::bit_cast<uint32_t>(p.position.z), p.object) |
+              1u;
+        moves = isMoved[p.object] != 0;
+      }
+      isOther[i] = !isKnown || moves || key != keys_[i];
+      keys_[i] = key;
+    }
+  });
+  return isOther;
+}
+
+// Edges whose surroundings show the same keep their samples.
+void EdgeResolve::findEdges(const FrameInputs& in) {
+  const GBufferView g = in.backend.hostGBuffer();
+  const std::vector<uint8_t> isOther = findChanges(in, g);
+  std::vector<std::vector<Edge>> before = std::exchange(rows_, {});
+  before.resize(static_cast<size_t>(g.height()));
+  rows_.resize(static_cast<size_t>(g.height()));
+  next_ = smoothRows_ = 0;
+  from_ = nullptr;
+  tbb::parallel_for(0, g.height(), [&](int y) {
+    const std::vector<Edge>& known = before[static_cast<size_t>(y)];
+    auto same = known.begin();
+    for (int x = 0; x < g.width(); ++x) {
+      while (same != known.end() && same->x < x) ++same;
+      const bool wasEdge = same != known.end() && same->x == x;
+      bool isNear = false, isEdge = false;
+      forEachAround(g, x, y, [&](int u, int v, size_t) {
+        isNear = isNear || isOther[static_cast<size_t>(v) * static_cast<size_t>(g.width()) +
+                                   static_cast<size_t>(u)] != 0;
+      });
+      if (isNear)
+        forEachAround(g, x, y,
+                      [&](int u, int v, size_t) { isEdge = isEdge || differ(g, x, y, u, v); });
+      if (!isNear && wasEdge)
+        rows_[static_cast<size_t>(y)].push_back(*same);
+      else if (isEdge)
+        rows_[static_cast<size_t>(y)].push_back({x, {}});
     }
   });
 }
 
 uint64_t EdgeResolve::findMore(const FrameInputs& in) {
-  if (isDone()) return 0;
+  const bool isMoving = in.changes.surfaces();
+  if (isDone() && !isMoving) return 0;
   in.backend.renderGBuffer(in.view, vec2(0.0f));
-  if (rows_.empty()) findEdges(in);
+  if (rows_.empty() || isMoving) findEdges(in);
   const size_t begin = next_;
   size_t rays = 0;
-  for (; next_ < rows_.size() && rays < kRaysAFrame; ++next_)
-    rays += kSamples * rows_[next_].size();
+  for (; next_ < rows_.size() && rays < (isMoving ? kRaysMoving : kRaysAFrame); ++next_)
+    rays +=
+        kSamples * static_cast<size_t>(std::ranges::count(rows_[next_], false, &Edge::isTraced));
   const GBufferView g = in.backend.hostGBuffer();
   tbb::parallel_for(begin, next_, [&](size_t y) { traceRow(in, g, static_cast<int>(y)); });
   return rays;
@@ -110,6 +164,7 @@ void EdgeResolve::traceRow(const FrameInputs& in, const GBufferView& g, int y) {
   const View& view = in.view;
   const vec3 forward = view.forward();
   for (Edge& edge : rows_[static_cast<size_t>(y)]) {
+    if (std::exchange(edge.isTraced, true)) continue;
     std::array<Ray, kSamples> rays;
     std::array<Hit, kSamples> hits;
     for (int k = 0; k < kSamples; ++k) {

@@ -1,6 +1,7 @@
 // Smooth edges before a picture has settled: subpixel reconstruction antialiasing. Rays find what
 // share of a pixel each of the surfaces at an edge covers, and the pixel becomes the mean of the
-// pixels around it that show these surfaces. No light is computed for that.
+// pixels around it that show these surfaces. No light is computed for that. While objects move
+// before a still camera, only the edges that they change are found anew.
 //
 // After Chajdas, McGuire and Luebke, "Subpixel Reconstruction Antialiasing for Deferred Shading",
 // 2011: geometry at more samples than shading.
@@ -21,9 +22,10 @@ class EdgeResolve {
  public:
   void restart();
 
-  // Traces rays for the next edges of the view, a limited number in each call. Call it in frames in
-  // which neither the view nor surfaces changed, else restart(). Draws the G-buffer of the view
-  // without a shift until all edges are found. Returns the rays traced.
+  // Traces rays for the next edges of the view, a limited number in each call. Call it in each
+  // frame in which the view is that of the frame before; if it is another one, or after frames
+  // without a call in which surfaces changed, restart(). Draws the G-buffer of the view without a
+  // shift if there is something to find. Returns the rays traced.
   uint64_t findMore(const FrameInputs& in);
   bool isDone() const { return !rows_.empty() && next_ == rows_.size(); }
 
@@ -36,12 +38,15 @@ class EdgeResolve {
     // How many samples of the pixel show what the pixels around it show, row by row; 4: the pixel
     // itself.
     std::array<uint8_t, 9> samples{};
+    bool isTraced = false;
   };
   void findEdges(const FrameInputs& in);
+  std::vector<uint8_t> findChanges(const FrameInputs& in, const GBufferView& gbuffer);
   void traceRow(const FrameInputs& in, const GBufferView& gbuffer, int y);
 
   std::vector<std::vector<Edge>> rows_;  // of the picture, from the top; empty: not begun
   size_t next_ = 0;                      // the first row without samples
+  std::vector<uint32_t> keys_;           // by pixel: what it shows
   // The last result, what it was made of, and how many rows of it are smooth.
   std::shared_ptr<RadianceImage> result_, from_;
   size_t smoothRows_ = 0;

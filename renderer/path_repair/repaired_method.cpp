@@ -102,13 +102,15 @@ class RepairedMethod final : public GiMethod {
     stats = {repair_.paths(), options.paths, repair_.takeRays()};
   }
 
-  // Smooth edges of a picture that has not settled, while neither the view nor surfaces change.
+  // Smooth edges of a picture that has not settled, while the view does not change.
   void resolveEdges(const FrameInputs& in, bool isWanted, GiOutput& out, RepairStats& stats) {
-    const bool isSame = in.view == view_ && !in.changes.surfaces() && !in.changes.objects &&
+    const bool isSame = in.view == view_ && !in.changes.rebuilt && !in.changes.objects &&
                         in.changes.switchedObjects.empty();
+    const bool isShown =
+        isWanted && !out.settled && !out.hasSmoothEdges && out.radiance->isInMainMemory();
     view_ = in.view;
-    if (!isWanted || !isSame) edges_.restart();
-    if (!isWanted || !isSame || out.settled || !out.radiance->isInMainMemory()) return;
+    if (!isSame || !isWanted || (!isShown && in.changes.surfaces())) edges_.restart();
+    if (!isSame || !isShown) return;
     stats.rays += edges_.findMore(in);
     out.radiance = edges_.resolved(out.radiance);
   }

@@ -83,6 +83,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   if (!isSamePicture(in, options)) holdsMix_ = false;
   if (mixOnly(in, options, out, stats)) {
     stages.end(kSharesStage);
+    out.hasSmoothEdges = options.antialias > 1;
     if (options.refinement() != options_.refinement()) refinement_.restart();
     options_ = options;
     refineSettled(in, options, false, stages, out, stats);
@@ -166,6 +167,8 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
       out.settled = out.settled && corners_.isWhole(in.view);
     }
   }
+
+  out.hasSmoothEdges = samples > 0 && (out.settled || (usesShares(in, options) && holdsMix_));
 
   // 7. Then refine, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();

@@ -143,7 +143,8 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   GiOutput out;
   SceneChanges changes = SceneChanges::all();
   for (int frame = 0; frame < 2000 && !(out.settled && out.refined); ++frame) {
-    out = renderer.render({scene, changes, view, "many_lights", settings, false, false, 4096});
+    out = renderer.render(
+        {scene, changes, view, "many_lights", settings, false, {.refineUpdates = 4096}});
     changes = {};
   }
   ASSERT_TRUE(out.settled && out.refined);

@@ -21,8 +21,13 @@ struct RefinementGl : test::GlTest, test::SmallRoom {
   Image refined(FrameRenderer& renderer, const SceneChanges& changes) {
     GiOutput out;
     for (int frame = 0; frame < 1000; ++frame) {
-      out = renderer.render({scene, frame == 0 ? changes : SceneChanges(), view, "many_lights",
-                             settings, false, false, 64});
+      out = renderer.render({scene,
+                             frame == 0 ? changes : SceneChanges(),
+                             view,
+                             "many_lights",
+                             settings,
+                             false,
+                             {.refineUpdates = 64}});
       if (out.settled && out.refined) break;
     }
     EXPECT_TRUE(out.refined);
@@ -51,14 +56,15 @@ TEST_F(RefinementGl, AfterAnEditThePicturesEqualFreshOnes) {
     SceneChanges changes = compare(old, scene);
     GiOutput out;
     do {
-      out = renderer.render({scene, changes, view, "many_lights", settings, false, false, 64});
+      out = renderer.render(
+          {scene, changes, view, "many_lights", settings, false, {.refineUpdates = 64}});
       changes = SceneChanges();
     } while (!out.settled);
     FrameRenderer fresh(makeGlBackend());
     const GiOutput live = test::renderSettled(fresh, scene, SceneChanges::all(), view, settings);
     EXPECT_TRUE(test::sameBits(out.radiance->pixels(), live.radiance->pixels()));
     for (int i = 0; i < frames; ++i)
-      renderer.render({scene, {}, view, "many_lights", settings, false, false, 64});
+      renderer.render({scene, {}, view, "many_lights", settings, false, {.refineUpdates = 64}});
   }
   FrameRenderer fresh(makeGlBackend());
   EXPECT_TRUE(test::sameBits(refined(renderer, {}), refined(fresh, SceneChanges::all())));

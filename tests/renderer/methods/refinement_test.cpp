@@ -29,8 +29,13 @@ struct Refined : testing::Test, test::SmallRoom {
   }
 
   GiOutput step(const SceneChanges& changes = {}, bool refines = true) {
-    return renderer->render(
-        {scene, changes, view, "many_lights", settings, false, false, refines ? updates : 0});
+    return renderer->render({scene,
+                             changes,
+                             view,
+                             "many_lights",
+                             settings,
+                             false,
+                             {.refineUpdates = refines ? updates : 0}});
   }
   // Renders until the picture is settled and, if `refines`, refined.
   GiOutput rest(const SceneChanges& changes, bool refines) {

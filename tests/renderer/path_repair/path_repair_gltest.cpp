@@ -16,8 +16,13 @@ struct RepairedGl : test::GlTest, test::SmallRoom {
     FrameRenderer renderer(std::move(backend));
     GiOutput out;
     for (int frame = 0; frame < 1000 && !(out.settled && out.refined); ++frame)
-      out = renderer.render({scene, frame == 0 ? SceneChanges::all() : SceneChanges(), view,
-                             "many_lights", settings, false, false, 64});
+      out = renderer.render({scene,
+                             frame == 0 ? SceneChanges::all() : SceneChanges(),
+                             view,
+                             "many_lights",
+                             settings,
+                             false,
+                             {.refineUpdates = 64}});
     EXPECT_TRUE(out.settled && out.refined);
     paths = out.stats.of("paths_repaired");
     return out.radiance->pixels();

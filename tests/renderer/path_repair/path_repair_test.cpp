@@ -30,7 +30,7 @@ struct Repaired : testing::Test, test::SmallRoom {
 
   GiOutput step(const SceneChanges& changes = {}, bool repairs = true) {
     return renderer->render(
-        {scene, changes, view, method, settings, false, false, repairs ? rows : 0});
+        {scene, changes, view, method, settings, false, {.refineUpdates = repairs ? rows : 0}});
   }
   GiOutput rest(const SceneChanges& changes, bool repairs = true) {
     GiOutput out = step(changes, repairs);

@@ -80,7 +80,9 @@ TEST(Registry, MethodsMeasureTheStagesThatTheyDeclare) {
       if (i == 40) settings.set("share_memory", 0);
       if (i == 70) settings.set("indirect", std::string("meshes"));
       const GiStats stats =
-          renderer.render({scene, changes, view, method.name, settings, false, false, 8}).stats;
+          renderer
+              .render({scene, changes, view, method.name, settings, false, {.refineUpdates = 8}})
+              .stats;
       ASSERT_TRUE(std::ranges::equal(stats.stageSeconds, method.stages, {}, &StageTime::stage));
       measured.insert(measured.end(), stats.stageSeconds.begin(), stats.stageSeconds.end());
       changes = {};
