@@ -13,6 +13,9 @@ constexpr double kMostGrowth = 2.0, kLeastGrowth = 0.5;
 constexpr double kLeastUpdates = 16.0, kMostUpdates = 65536.0;
 constexpr double kLeastSurfaceWork = 0.15, kMostSurfaceWork = 8.0;
 
+// Of the first frame, whose time is not known. It takes long anyway, because a level was opened.
+constexpr double kFirstUpdates = 64.0;
+
 // The share of the limit that each kind of work gets at least. Without it, light on surfaces would
 // leave nothing to the direct light of a dragged lamp, which would lag behind.
 constexpr double kLeastShare = 0.25;
@@ -32,9 +35,9 @@ void WorkRate::measured(double amount, double seconds, double all) {
 }
 
 // A part of the time may not depend on the amount, so this approaches the right one in steps.
-double WorkRate::within(double seconds, double all, double least, double most) {
+double WorkRate::within(double seconds, double all, double least, double most, double first) {
   wanted_ = all;
-  allowed_ = least;
+  allowed_ = first;
   if (seconds_ > 0.0) {
     const double growth = std::clamp(seconds / seconds_, kLeastGrowth, kMostGrowth);
     allowed_ = std::clamp(growth * amount_, least, most);
@@ -65,12 +68,13 @@ FrameTimeControl::Work FrameTimeControl::within(double seconds) {
   const double forUpdates = seconds - rest_ - std::min(ofSurfaces_, share);
   const double forSurfaces = seconds - rest_ - ofUpdates_;
   Work work;
-  work.updates = static_cast<int>(
-      updates_.within(std::max(forUpdates, share), seconds, kLeastUpdates, kMostUpdates));
-  work.surfaces = static_cast<float>(
-      surfaces_.within(std::max(forSurfaces, share), seconds, kLeastSurfaceWork, kMostSurfaceWork));
-  work.refineUpdates =
-      static_cast<int>(refinement_.within(seconds, seconds, kLeastUpdates, kMostUpdates));
+  work.updates = static_cast<int>(updates_.within(std::max(forUpdates, share), seconds,
+                                                  kLeastUpdates, kMostUpdates, kFirstUpdates));
+  work.surfaces =
+      static_cast<float>(surfaces_.within(std::max(forSurfaces, share), seconds, kLeastSurfaceWork,
+                                          kMostSurfaceWork, kLeastSurfaceWork));
+  work.refineUpdates = static_cast<int>(
+      refinement_.within(seconds, seconds, kLeastUpdates, kMostUpdates, kLeastUpdates));
   return work;
 }
 

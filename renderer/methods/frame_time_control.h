@@ -12,8 +12,8 @@ class WorkRate {
   // A frame did this amount in that time [s], within a total of `all` seconds for the whole frame.
   void measured(double amount, double seconds, double all);
   // How much the next frame may do to take at most `seconds` for it, and `all` in total; at least
-  // and at most so much.
-  double within(double seconds, double all, double least, double most);
+  // and at most so much; `first` if nothing was measured.
+  double within(double seconds, double all, double least, double most, double first);
 
  private:
   double amount_ = 0.0, seconds_ = 0.0;

@@ -85,68 +85,70 @@ void EdgeResolve::restart() {
   result_ = from_ = nullptr;
 }
 
-// By pixel: whether it shows something else than at the last call, or an object that moved.
-std::vector<uint8_t> EdgeResolve::findChanges(const FrameInputs& in, const GBufferView& g) {
+// Which pixels show something else than at the last call, or an object that moved.
+EdgeResolve::Changes EdgeResolve::findChanges(const FrameInputs& in, const GBufferView& gbuffer) {
+  const cpu::GBuffer& g = gbuffer.packets();
   std::vector<uint8_t> isMoved(in.scene.objects.size(), 0);
   for (const uint32_t o : in.changes.movedObjects) isMoved[o] = 1;
-  const size_t pixels = static_cast<size_t>(g.width()) * static_cast<size_t>(g.height());
+  const auto width = static_cast<size_t>(g.width), height = static_cast<size_t>(g.height);
   // Materials may cut other holes.
-  const bool isKnown = keys_.size() == pixels && !in.changes.materials;
-  keys_.resize(pixels);
-  std::vector<uint8_t> isOther(pixels, 1);
-  tbb::parallel_for(0, g.height(), [&](int y) {
-    for (int x = 0; x < g.width(); ++x) {
-      const size_t i =
-          static_cast<size_t>(y) * static_cast<size_t>(g.width()) + static_cast<size_t>(x);
-      uint32_t key = 0;
-      bool moves = false;
-      if (g.isHit(x, y)) {
-        const GBufferPoint p = g.at(x, y);
-        key = hash4(std::bit_cast<uint32_t>(p.position.x), std::bit_cast<uint32_t>(p.position.y),
-                    std::bit_cast<uint32_t>(p.position.z), p.object) |
-              1u;
-        moves = isMoved[p.object] != 0;
-      }
-      isOther[i] = !isKnown || moves || key != keys_[i];
+  const bool isKnown = keys_.size() == width * height && !in.changes.materials;
+  keys_.resize(width * height);
+  Changes out{std::vector<uint8_t>(width * height, 1), std::vector<uint8_t>(height, 0)};
+  tbb::parallel_for(0, g.height, [&](int y) {
+    size_t i = static_cast<size_t>(y) * width;
+    for (int x = 0; x < g.width; ++x, ++i) {
+      const size_t k = g.index(x, y);
+      const bool isHit = g.hit[k] != 0;
+      const uint32_t key =
+          isHit ? hash4(std::bit_cast<uint32_t>(g.px[k]), std::bit_cast<uint32_t>(g.py[k]),
+                        std::bit_cast<uint32_t>(g.pz[k]), g.object[k]) |
+                      1u
+                : 0u;
+      out.pixels[i] = !isKnown || key != keys_[i] || (isHit && isMoved[g.object[k]] != 0);
+      out.rows[static_cast<size_t>(y)] |= out.pixels[i];
       keys_[i] = key;
     }
   });
-  return isOther;
+  return out;
 }
 
 // Edges whose surroundings show the same keep their samples.
 void EdgeResolve::findEdges(const FrameInputs& in) {
   const GBufferView g = in.backend.hostGBuffer();
-  const std::vector<uint8_t> isOther = findChanges(in, g);
-  std::vector<std::vector<Edge>> before = std::exchange(rows_, {});
-  before.resize(static_cast<size_t>(g.height()));
+  const Changes changes = findChanges(in, g);
   rows_.resize(static_cast<size_t>(g.height()));
   next_ = smoothRows_ = 0;
   from_ = nullptr;
   tbb::parallel_for(0, g.height(), [&](int y) {
-    const std::vector<Edge>& known = before[static_cast<size_t>(y)];
-    auto same = known.begin();
+    const auto first = static_cast<size_t>(std::max(y - 1, 0));
+    const auto last = static_cast<size_t>(std::min(y + 1, g.height() - 1));
+    if (std::none_of(&changes.rows[first], &changes.rows[last] + 1,
+                     [](uint8_t r) { return r != 0; }))
+      return;
+    std::vector<Edge>& row = rows_[static_cast<size_t>(y)];
+    const std::vector<Edge> before = std::exchange(row, {});
+    auto known = before.begin();
     for (int x = 0; x < g.width(); ++x) {
-      while (same != known.end() && same->x < x) ++same;
-      const bool wasEdge = same != known.end() && same->x == x;
-      bool isNear = false, isEdge = false;
+      while (known != before.end() && known->x < x) ++known;
+      bool isOther = false, isEdge = false;
       forEachAround(g, x, y, [&](int u, int v, size_t) {
-        isNear = isNear || isOther[static_cast<size_t>(v) * static_cast<size_t>(g.width()) +
-                                   static_cast<size_t>(u)] != 0;
+        const auto i = static_cast<size_t>(v) * static_cast<size_t>(g.width());
+        isOther = isOther || changes.pixels[i + static_cast<size_t>(u)] != 0;
       });
-      if (isNear)
-        forEachAround(g, x, y,
-                      [&](int u, int v, size_t) { isEdge = isEdge || differ(g, x, y, u, v); });
-      if (!isNear && wasEdge)
-        rows_[static_cast<size_t>(y)].push_back(*same);
-      else if (isEdge)
-        rows_[static_cast<size_t>(y)].push_back({x, {}});
+      if (!isOther) {
+        if (known != before.end() && known->x == x) row.push_back(*known);
+        continue;
+      }
+      forEachAround(g, x, y,
+                    [&](int u, int v, size_t) { isEdge = isEdge || differ(g, x, y, u, v); });
+      if (isEdge) row.push_back({x, {}});
     }
   });
 }
 
 uint64_t EdgeResolve::findMore(const FrameInputs& in) {
-  const bool isMoving = in.changes.surfaces();
+  const bool isMoving = in.changes.surfaces() && !in.changes.rebuilt;
   if (isDone() && !isMoving) return 0;
   in.backend.renderGBuffer(in.view, vec2(0.0f));
   if (rows_.empty() || isMoving) findEdges(in);

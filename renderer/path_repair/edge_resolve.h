@@ -41,7 +41,10 @@ class EdgeResolve {
     bool isTraced = false;
   };
   void findEdges(const FrameInputs& in);
-  std::vector<uint8_t> findChanges(const FrameInputs& in, const GBufferView& gbuffer);
+  struct Changes {
+    std::vector<uint8_t> pixels, rows;  // rows: whether any of its pixels changed
+  };
+  Changes findChanges(const FrameInputs& in, const GBufferView& gbuffer);
   void traceRow(const FrameInputs& in, const GBufferView& gbuffer, int y);
 
   std::vector<std::vector<Edge>> rows_;  // of the picture, from the top; empty: not begun

@@ -102,15 +102,17 @@ class RepairedMethod final : public GiMethod {
     stats = {repair_.paths(), options.paths, repair_.takeRays()};
   }
 
-  // Smooth edges of a picture that has not settled, while the view does not change.
+  // Smooth edges of a picture that has not settled, while the view does not change; of a new scene
+  // at once, because its first frame takes long anyway.
   void resolveEdges(const FrameInputs& in, bool isWanted, GiOutput& out, RepairStats& stats) {
     const bool isSame = in.view == view_ && !in.changes.rebuilt && !in.changes.objects &&
                         in.changes.switchedObjects.empty();
+    const bool hasTime = isSame || in.changes.rebuilt;
     const bool isShown =
         isWanted && !out.settled && !out.hasSmoothEdges && out.radiance->isInMainMemory();
     view_ = in.view;
     if (!isSame || !isWanted || (!isShown && in.changes.surfaces())) edges_.restart();
-    if (!isSame || !isShown) return;
+    if (!hasTime || !isShown) return;
     stats.rays += edges_.findMore(in);
     out.radiance = edges_.resolved(out.radiance);
   }

@@ -207,6 +207,19 @@ void LiveLights::loseMaps() {
   changed_ = true;
 }
 
+// Lamps of which no sample is shown yet, with their brightness. Their samples are shared out among
+// them in proportion to it (the method of D'Hondt), so that a new scene has light of each.
+std::map<VplId, LiveLights::UnseenLamp> LiveLights::unseenLamps() const {
+  std::map<VplId, UnseenLamp> lamps;
+  for (const Entry& e : entries_)
+    if (e.isWanted && !e.isLive && e.isOfLamp())
+      lamps[e.wanted.id.set()].brightness += brightness(e.wanted.vpl);
+  if (lamps.empty()) return lamps;
+  for (const Entry& e : entries_)
+    if (e.isLive) lamps.erase(e.wanted.id.set());
+  return lamps;
+}
+
 std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& moved,
                                                          const RefreshWork& stale) {
   std::vector<Group> groups;
@@ -216,6 +229,7 @@ std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& move
     if (id.bounce > 0 && e.moves() && ofPath.emplace(id.path(), groups.size()).second)
       groups.emplace_back();
   }
+  std::map<VplId, UnseenLamp> unseen = unseenLamps();
   for (size_t i = 0; i < entries_.size(); ++i) {
     Entry& e = entries_[i];
     const auto path = e.wanted.id.bounce > 0 ? ofPath.find(e.wanted.id.path()) : ofPath.end();
@@ -230,6 +244,8 @@ std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& move
     c.isFirst = e.follows;
     c.brightness =
         std::max(c.brightness, urgency * brightness(e.isWanted ? e.wanted.vpl : e.current));
+    if (const auto lamp = unseen.find(e.wanted.id.set()); lamp != unseen.end())
+      c.brightness = lamp->second.brightness / static_cast<float>(++lamp->second.samples);
     c.framesWaiting = std::max(c.framesWaiting, ++e.framesWaiting);
     if (!e.isWanted) continue;
     if (e.moves() || e.mapIsStale) c.work += e.moves() ? moved : stale;

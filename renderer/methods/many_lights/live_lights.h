@@ -129,6 +129,11 @@ class LiveLights {
     RefreshCandidate candidate{0.0f, 0, {}, 0};
   };
   std::vector<Group> pendingGroups(const RefreshWork& moved, const RefreshWork& stale);
+  struct UnseenLamp {
+    float brightness = 0.0f;
+    int samples = 0;  // given a turn
+  };
+  std::map<VplId, UnseenLamp> unseenLamps() const;
   void pairUp(std::vector<Group>& groups) const;
   void chooseFollowers(const RefreshBudget& budget, const RefreshWork& moved);
   void hideMisplaced();

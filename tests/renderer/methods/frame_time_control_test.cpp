@@ -34,7 +34,7 @@ FrameTimeControl::Work workAfter(FrameTimeControl& control, const Machine& machi
 
 TEST(FrameTimeControl, FillsTheFrame) {
   FrameTimeControl control;
-  EXPECT_EQ(control.within(0.05).updates, 16);
+  EXPECT_EQ(control.within(0.05).updates, 64);
   EXPECT_NEAR(workAfter(control, {0.0005, 0.02, 1000}, 0.05, 40).updates, 60, 1);
   EXPECT_NEAR(workAfter(control, {0.0005, 0.02, 1000}, 0.1, 40).updates, 160, 2);
   // The constant part alone exceeds the target: a quarter of it remains for updates.
@@ -84,7 +84,7 @@ TEST(FrameTimeControl, FillsTheFrameWithRefinement) {
     control.measured(stats);
   }
   EXPECT_NEAR(control.within(0.05).refineUpdates, 25, 1);
-  EXPECT_EQ(control.within(0.05).updates, 16);
+  EXPECT_EQ(control.within(0.05).updates, 64);
 }
 
 }  // namespace

@@ -399,5 +399,19 @@ TEST_F(LiveLightsTest, FewSamplesDoNotStandForADraggedLamp) {
   EXPECT_NEAR(checkedSum(), 10.0f, 1e-4f);
 }
 
+// A dim lamp has light in the first frame, too, even if each sample of a bright one is brighter.
+TEST_F(LiveLightsTest, TheFirstFrameHasLightOfEachLamp) {
+  std::vector<SceneVpl> wanted = samples(1, 50, 10.0f, 0.0f);
+  const std::vector<SceneVpl> dim = samples(2, 50, 5.0f, 3.0f);
+  wanted.insert(wanted.end(), dim.begin(), dim.end());
+  lights.want(wanted);
+  lights.refresh(kernels, {12});
+  std::map<NodeId, int> shown;
+  for (const SceneVpl& v : liveSamples(lights.table().samples)) ++shown[v.id.light];
+  EXPECT_EQ(shown[1], 8);
+  EXPECT_EQ(shown[2], 4);
+  EXPECT_NEAR(checkedSum(), 15.0f, 1e-4f);
+}
+
 }  // namespace
 }  // namespace lamplighter
