@@ -83,7 +83,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   if (!isSamePicture(in, options)) holdsMix_ = false;
   if (mixOnly(in, options, out, stats)) {
     stages.end(kSharesStage);
-    out.hasSmoothEdges = options.antialias > 1;
+    out.hasSmoothEdges = options.antialias > 1 && lights_.live() > 0;
     if (options.refinement() != options_.refinement()) refinement_.restart();
     options_ = options;
     refineSettled(in, options, false, stages, out, stats);
@@ -168,7 +168,9 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
     }
   }
 
-  out.hasSmoothEdges = samples > 0 && (out.settled || (usesShares(in, options) && holdsMix_));
+  // Without lamps all light is on surfaces, whose picture becomes smooth later.
+  out.hasSmoothEdges =
+      samples > 0 && lights_.live() > 0 && (out.settled || (usesShares(in, options) && holdsMix_));
 
   // 7. Then refine, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();

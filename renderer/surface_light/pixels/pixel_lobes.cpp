@@ -20,6 +20,8 @@ constexpr float kTraced = 0.45f, kEven = 0.65f;
 // Pixels whose lobes differ by more show different reflections: normals within 13°.
 constexpr float kLobeTurn = 40.0f;
 constexpr float kLeastRadius = 2.5f, kMostRadius = 8.0f;  // pixels
+// With one ray for each pixel: enough to know all rays of 4 × 4 pixels.
+constexpr float kLeastRadiusOfOne = 5.0f;
 // The rest of a lobe, its wide tail, is taken as the part before it: few rays find a window there,
 // and show it as a spot (Stachowiak, "Stochastic Screen-Space Reflections", 2015).
 constexpr float kWithoutTail = 0.95f;
@@ -109,7 +111,8 @@ uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
         // The width of the lobe where the ray ends, seen in the mirror.
         const float away = glm::distance(rays[k].origin, view_.eye);
         const float seen = hits[k] ? hits[k].t / (hits[k].t + away) : 1.0f;
-        radius = std::clamp(spread[k] * seen / pixelAngle, kLeastRadius, kMostRadius);
+        radius = std::clamp(spread[k] * seen / pixelAngle,
+                            samples_ == 1 ? kLeastRadiusOfOne : kLeastRadius, kMostRadius);
       }
       traced += lanes;
       lanes = 0;
