@@ -8,6 +8,11 @@
 namespace lamplighter {
 namespace {
 
+bool isMemoryLimit(const ParameterSpec& spec) {
+  return spec.group == ParameterGroup::budgets && spec.unit == "MiB" &&
+         std::holds_alternative<int>(spec.defaultValue);
+}
+
 std::vector<const ParameterSpec*> limitsOf(const MethodInfo& method) {
   std::vector<const ParameterSpec*> limits;
   for (const ParameterSpec& spec : method.parameters)
@@ -29,11 +34,6 @@ double sumOf(const std::vector<const ParameterSpec*>& limits, const Value& value
 }
 
 }  // namespace
-
-bool isMemoryLimit(const ParameterSpec& spec) {
-  return spec.group == ParameterGroup::budgets && spec.unit == "MiB" &&
-         std::holds_alternative<int>(spec.defaultValue);
-}
 
 int memoryLimit(const MethodInfo& method, const Settings& settings) {
   return static_cast<int>(sumOf(limitsOf(method), [&](const ParameterSpec& spec) {
@@ -57,8 +57,8 @@ Settings withMemoryLimit(const MethodInfo& method, Settings settings, int total)
   const auto limits = limitsOf(method);
   const double scale = total / std::max(sumOf(limits, byDefault), 1.0);
   for (const ParameterSpec* spec : limits) {
-    const int value = static_cast<int>(std::clamp(std::round(scale * byDefault(*spec)),
-                                                  std::max(spec->minimum, 1.0), spec->maximum));
+    const int value = static_cast<int>(
+        std::clamp(std::round(scale * byDefault(*spec)), leastOf(*spec), spec->maximum));
     if (value == std::get<int>(spec->defaultValue))
       settings.reset(spec->name);
     else

@@ -1,4 +1,5 @@
-// All memory limits of a method as one: a user sets their sum, and each keeps its part of it.
+// All memory limits of a method as one: its budgets in MiB. A user sets their sum, and each keeps
+// its part of it.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +7,6 @@
 #include "renderer/methods/gi_method.h"
 
 namespace lamplighter {
-
-// Whether the parameter limits memory. Its value is in MiB.
-bool isMemoryLimit(const ParameterSpec& spec);
 
 // The sum of all limits [MiB]; 0 if the method has none.
 int memoryLimit(const MethodInfo& method, const Settings& settings);
@@ -21,7 +19,7 @@ MemoryRange memoryRange(const MethodInfo& method);
 // The settings with limits whose sum is about `total` MiB, in the proportions of their defaults.
 Settings withMemoryLimit(const MethodInfo& method, Settings settings, int total);
 
-// What the last frame had within these limits [bytes].
+// What the method keeps in memory within these limits, by the statistics of the last frame [bytes].
 uint64_t memoryUsed(const MethodInfo& method, const GiStats& now);
 
 }  // namespace lamplighter

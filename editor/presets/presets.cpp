@@ -9,7 +9,7 @@ namespace lamplighter {
 namespace {
 
 // The values of one parameter in draft, work and final. The values of work are the defaults. The
-// number of bounces and the time of a frame are no matter of quality: users set them beside it.
+// number of bounces and the frame time are not part of quality: they have controls of their own.
 struct Row {
   const ParameterSpec& spec;
   ParameterValue draft, final;

@@ -74,7 +74,7 @@ struct StatisticSpec {
   std::vector<StageSpec> stages{};
   // Of a state: its text in the cost of the budget, as `status`. It is left out if the value is 0.
   std::string cost{};
-  bool isHeld = true;  // of bytes: they are in memory
+  bool isHeld = true;  // of bytes: they are in memory; false: they would be needed
 
   bool isWhole = true;  // the table sets it from the type of the member
 };

@@ -98,7 +98,7 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     hasPlainLobes_ = false;
     shown_ = nullptr;
   } else if (!hasPlainLobes_ && changes.none() && samples_.size() == 1) {
-    // Mirrors from the second frame at rest on: their rays would be lost in each frame of a motion.
+    // Only in frames without a change: during a motion these rays would be traced again each time.
     showView(in, gbufferIsCurrent);
     samples_.front() = sampleOf(in, light, options, samples_.front(), {}, true);
     plainLobes_.restart(view_, 1, seed);

@@ -37,8 +37,7 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   if (isAtRest_ && picture == options_) return;
   recordsAreOutdated_ = true;
   keepsPixels_ = !isOtherView && picture == options_ && !light_.hasOtherElements() &&
-                 !changes.materials && plain_.samples() == 1;
-  keepsPixels_ = keepsPixels_ && !hasPlainLobes_;
+                 !changes.materials && plain_.samples() == 1 && !hasPlainLobes_;
   if (!keepsPixels_) forgetPlain();
   smooth_ = {};
   shown_ = nullptr;
@@ -55,7 +54,7 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
   if (antialias > 1 && smooth_.samples() < antialias && records_.isDone())
     addSample(in, smooth_, antialias, gbufferIsCurrent);
   const int shown = smooth_.samples() == antialias ? antialias : 1;
-  // Mirrors from the second frame at rest on: their rays would be lost in each frame of a motion.
+  // Only in frames without a change: during a motion these rays would be traced again each time.
   if (shown <= 1 && isAtRest_ && !hasPlainLobes_) {
     forgetPlain();
     hasPlainLobes_ = true;

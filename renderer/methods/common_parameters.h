@@ -2,6 +2,8 @@
 // those that it uses, and its table contains their tables.
 #pragma once
 
+#include <optional>
+
 #include "renderer/base/parameter_table.h"
 
 namespace lamplighter {
@@ -44,11 +46,13 @@ struct FrameBudgetParameters {
   bool operator==(const FrameBudgetParameters&) const = default;
 };
 const ParameterTable<FrameBudgetParameters>& frameBudgetParameters();
-// The share of the usual work of a frame that a number of updates stands for.
-inline float paceOf(int updates) {
-  return static_cast<float>(updates) / static_cast<float>(FrameBudgetParameters().updates);
-}
-
 inline constexpr char kUpdates[] = "updates";  // the name of that parameter
+
+// The share of the usual work of a frame on light on surfaces: that of the window
+// (FrameBudget::surfaceWork) if it is given, else in proportion to the parameter `updates`.
+inline float surfacePace(std::optional<float> ofWindow, int updates) {
+  return ofWindow.value_or(static_cast<float>(updates) /
+                           static_cast<float>(FrameBudgetParameters().updates));
+}
 
 }  // namespace lamplighter

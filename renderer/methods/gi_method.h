@@ -76,9 +76,8 @@ struct GiOutput {
   bool includesDirect = true;
   bool settled = false;  // rendering the same input again would at most refine the picture
   bool refined = true;   // the picture is refined as far as requested, or refinement is off
-  // The edges of what the picture has of direct and emitted light are antialiased, also where it
-  // has not settled. They must not be smoothed twice: beside a lamp that is 50 times as bright as
-  // what is behind it, a second time would be the largest error of the picture.
+  // Direct light and emission are antialiased already, even if the picture has not settled. To
+  // smooth their edges again would blur the outlines of bright lamps.
   bool hasSmoothEdges = false;
   GiStats stats;
   // An exception of work in the background, to be told once: the picture does without its result.

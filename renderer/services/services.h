@@ -28,8 +28,8 @@ struct FrameBudget {
   bool inBackground = false;
   // By how many light samples, or rows of paths, this frame may improve a settled picture; 0: none.
   int refineUpdates = 0;
-  // The share of the usual work of a frame that it may spend on light on surfaces, from elements,
-  // links or a field; not given: that of the parameter `updates` in its default.
+  // The work on light on surfaces (elements, links or a field), as a share of the usual work of a
+  // frame. Not given: the value of the parameter `updates` divided by its default.
   std::optional<float> surfaceWork = {};
 };
 

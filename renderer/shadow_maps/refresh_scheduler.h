@@ -46,11 +46,12 @@ struct RefreshCandidate {
   int framesWaiting = 1;    // 1 in the frame in which it became stale
   RefreshWork work{};       // estimated work of its refresh
   int vpls = 1;             // number of VPLs that must be refreshed together
-  bool isFirst = false;     // before all that are not, whatever their priority
+  bool isFirst = false;     // chosen before all others, whatever their priority
 };
 
-// The indices of the candidates for which the budget is sufficient. Those that are first, then
-// highest priority = brightness × frames waiting, ties by index. Priority grows while a candidate
+// The indices of the candidates for which the budget is sufficient, in the order of choice: those
+// with isFirst, then the others; within both by priority = brightness × frames waiting, highest
+// first, ties by index. Priority grows while a candidate
 // waits, so none starves. The first one is always chosen, even if it exceeds the budget (unless the
 // budget allows no VPL).
 std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates,

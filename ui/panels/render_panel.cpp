@@ -34,8 +34,8 @@ void methodCombo(const PanelContext& ui, const MethodInfo& current) {
 // Buttons of presets side by side. The active one is highlighted.
 void qualityRow(const PanelContext& ui, Requests& requests) {
   labelledRow(ui, "Quality",
-              "Sets the numbers of light samples, sizes of shadow maps, antialiasing and repair at "
-              "once, as one undo step.");
+              "Sets the number of light samples, the size and memory of shadow maps, antialiasing "
+              "and repair at once, as one undo step.");
   const float gap = ui.px(4);
   const float width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) /
                                  static_cast<float>(presets().size()));
@@ -53,9 +53,7 @@ void qualityRow(const PanelContext& ui, Requests& requests) {
 void memoryRow(const PanelContext& ui, const MethodInfo& method) {
   const MemoryRange range = memoryRange(method);
   if (range.most == 0) return;
-  const std::string help =
-      "Largest memory for what the method keeps: the sum of its limits, which stay in proportion. "
-      "With less memory, light on surfaces is coarser and shadows are less sharp.";
+  const std::string& help = ui.session.actions().find("render.memory")->help;
   labelledRow(ui, "Memory", help.c_str());
   RenderSettings render = ui.session.document().render;
   int total = memoryLimit(method, render.values);
@@ -87,8 +85,8 @@ void exposureRow(const PanelContext& ui) {
 
 }  // namespace
 
-// What is set most often comes first; all other parameters are in sections that are closed at
-// first.
+// What is set most often comes first, then the method; all other parameters are in sections that
+// are closed at first.
 void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
   ui.prefix = "render/";
   const auto& all = methods();

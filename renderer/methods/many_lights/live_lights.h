@@ -35,9 +35,9 @@ class LiveLights {
   void want(std::vector<SceneVpl> wanted, std::span<const VplId> paths = {});
   // Sets the brightness of all lights, which applies immediately.
   void setGains(LightGains gains);
-  // Shadow casters moved: maps that may show them become stale, and samples of those that are lamps
-  // are misplaced until they are refreshed. `spared`, if given, tells that a
-  // VPL's map does not change nevertheless. Returns the number of spared maps.
+  // Shadow casters moved: maps that may show them become stale, and the samples of those that are
+  // lamps are misplaced until they are refreshed. `spared`, if given, tells that a VPL's map does
+  // not change nevertheless. Returns the number of spared maps.
   int markStale(std::span<const MoverFinder::Mover> movers,
                 const std::function<bool(const shared::Vpl&)>& spared = {});
   // All maps are lost: nothing is shown until it is refreshed.
@@ -110,7 +110,7 @@ class LiveLights {
     bool movesNow = false;      // its lamp has moved since the last frame
     bool follows = false;       // it is refreshed in each frame of a drag of its lamp
     bool waitsForRest = false;  // it is not refreshed during the drag
-    bool isHidden = false;      // live, but those that follow stand for it
+    bool isHidden = false;      // live, but not shown: those that follow carry its flux
     float staleShare = 0.0f;    // share of its map that is out of date
     bool hasMap = false;        // of `current`
     bool isFine = false;        // the kind of its map
@@ -131,7 +131,7 @@ class LiveLights {
   std::vector<Group> pendingGroups(const RefreshWork& moved, const RefreshWork& stale);
   struct UnseenLamp {
     float brightness = 0.0f;
-    int samples = 0;  // given a turn
+    int samples = 0;  // that have a priority so far
   };
   std::map<VplId, UnseenLamp> unseenLamps() const;
   void pairUp(std::vector<Group>& groups) const;

@@ -27,7 +27,7 @@ BiasCompensation::Options cornerOptions(const FrameInputs& in, const ManyLightsO
 
 // Share of the usual work of a frame on light on surfaces.
 float paceOf(const FrameInputs& in, const ManyLightsOptions& options) {
-  return in.services.budget().surfaceWork.value_or(lamplighter::paceOf(options.updates));
+  return surfacePace(in.services.budget().surfaceWork, options.updates);
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ class MultiMesh final : public GiMethod {
     const auto antialias = manyLightsParameters().read(in.settings).antialias;
     // Shifted pictures wait for the rest of the light.
     const int samples = out.settled ? antialias : 1;
-    const float pace = in.services.budget().surfaceWork.value_or(paceOf(options.updates));
+    const float pace = surfacePace(in.services.budget().surfaceWork, options.updates);
     out.radiance =
         direct_.addTo(in, out.radiance, samples, options.directMeshes(options.seed),
                       {in.lightOnly, options.speculars, options.leastRoughness},

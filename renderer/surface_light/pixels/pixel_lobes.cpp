@@ -20,7 +20,7 @@ constexpr float kTraced = 0.45f, kEven = 0.65f;
 // Pixels whose lobes differ by more show different reflections: normals within 13°.
 constexpr float kLobeTurn = 40.0f;
 constexpr float kLeastRadius = 2.5f, kMostRadius = 8.0f;  // pixels
-// With one ray for each pixel: enough to know all rays of 4 × 4 pixels.
+// With one ray for each pixel: wide enough to average the 4 × 4 pixels that share a sequence.
 constexpr float kLeastRadiusOfOne = 5.0f;
 // The rest of a lobe, its wide tail, is taken as the part before it: few rays find a window there,
 // and show it as a spot (Stachowiak, "Stochastic Screen-Space Reflections", 2015).

@@ -1,8 +1,6 @@
 // What glossy surfaces mirror: from the second frame at rest on, and also without antialiasing.
 #include <gtest/gtest.h>
 
-#include "renderer/image/average_blocks.h"
-#include "renderer/image/metrics.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"

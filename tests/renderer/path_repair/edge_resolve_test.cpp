@@ -1,4 +1,6 @@
 // Smooth edges of pictures that have not settled.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

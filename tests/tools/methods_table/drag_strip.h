@@ -8,9 +8,10 @@
 
 namespace lamplighter {
 
-// The frames of "drag a light" of the recording, paced as in the editor's window, then the first
-// frame at rest and the settled picture, as tiles. Prints the change from frame to frame, as
-// relRMSE of means of 4 × 4 pixels: its median, the largest one, and that when it settles.
+// The frames of "drag a light" of the recording, paced as in the editor's window, then the frame
+// after the drag and the settled picture, as tiles. Prints the change from frame to frame, as
+// relRMSE of means of 4 × 4 pixels (its median, the largest one, that after the drag, and from
+// there to the settled picture), and the mean time of each stage during the drag.
 void writeDragStrip(const std::string& level, const std::string& method,
                     const test::LevelRecording& recording, const std::filesystem::path& file);
 

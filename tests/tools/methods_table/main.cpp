@@ -5,7 +5,6 @@
 // METHOD: a method, with its parameters as in "many_lights,indirect=samples"; "truth" writes the
 // references, pictures of the path tracer after each step, into the folder REFERENCES. Prints a row
 // of CSV for each step; to CURVES it appends the error over time.
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -15,10 +14,6 @@
 #include <sys/resource.h>
 
 #include "editor/cli/options.h"
-#include "editor/convergence/convergence_meter.h"
-#include "editor/session/session.h"
-#include "editor/split/split_view.h"
-#include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/error.h"
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/image_io.h"
@@ -27,7 +22,7 @@
 #include "tests/support/level_recording.h"
 #include "tests/support/render.h"
 #include "tests/tools/methods_table/drag_strip.h"
-#include "tests/tools/methods_table/shown_state.h"
+#include "tests/tools/methods_table/played_session.h"
 
 namespace lamplighter {
 namespace {
@@ -35,19 +30,14 @@ namespace {
 namespace fs = std::filesystem;
 using test::LevelRecording;
 
-constexpr int kWidth = 320, kHeight = 240;
-constexpr int kBounces = 5, kPaths = 64;
+constexpr int kPaths = 64;
 // Not that of the method reference, whose noise would be the same.
 constexpr uint32_t kSeed = 77;
-constexpr int kBlock = 4;  // errors are those of means of blocks of pixels
+constexpr int kBlock = PlayedSession::kBlock;
 // How long each step is watched, from its last frame of motion on [s].
 constexpr double kSeconds = 8.0;
 // A row of the curves where time has grown by this factor.
 constexpr double kRowFactor = 1.25;
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 fs::path referenceFile(const fs::path& folder, size_t step) {
   return folder / fmt::format("{}.exr", step);
@@ -59,7 +49,7 @@ void writeReferences(const LevelRecording& recording, const fs::path& folder) {
   for (size_t step = 0; step < LevelRecording::kSteps.size(); ++step) {
     const auto state = recording.after(step, LevelRecording::kSteps[step].frames);
     recording.apply(state, scene);
-    writeExr(test::renderReference(scene, state.view, kPaths, kBounces, kSeed),
+    writeExr(test::renderReference(scene, state.view, kPaths, PlayedSession::kBounces, kSeed),
              referenceFile(folder, step));
   }
 }
@@ -77,12 +67,7 @@ std::string orNever(const std::optional<double>& value) {
 
 void play(const std::string& level, const std::string& method, const LevelRecording& recording,
           const fs::path& references, std::ostream* curves) {
-  Session session(std::make_unique<FrameRenderer>(makeCpuBackend(), seconds, StageTimes::exact));
-  session.resizeViewport(kWidth, kHeight);
-  RenderSettings render = readSide(method, "").of({});
-  render.values.set("bounces", kBounces);
-  session.editing().setInitialRender(render);
-  ConvergenceMeter meter(session, seconds);
+  PlayedSession played(method);
   for (size_t step = 0; step < LevelRecording::kSteps.size(); ++step) {
     const auto& [name, frames] = LevelRecording::kSteps[step];
     const Image truth = averageBlocks(readImage(referenceFile(references, step)), kBlock);
@@ -92,11 +77,11 @@ void play(const std::string& level, const std::string& method, const LevelRecord
     std::vector<double> moving;
     for (int frame = 1; frame < frames; ++frame)
       moving.push_back(
-          meter.frame([&] { show(session, recording, recording.after(step, frame)); }));
-    const Convergence last = meter.measure(
+          played.meter.frame([&] { played.show(recording, recording.after(step, frame)); }));
+    const Convergence last = played.meter.measure(
         [&] {
-          if (step == 0) session.open(recording.scene(), level, {});
-          show(session, recording, recording.after(step, frames));
+          if (step == 0) played.session.open(recording.scene(), level, {});
+          played.show(recording, recording.after(step, frames));
         },
         errorOf, kSeconds);
     moving.push_back(last.firstFrame);
@@ -123,7 +108,7 @@ int run(int argc, char** argv) {
   const fs::path file = argv[1];
   const std::string method = argv[2];
   Scene scene = loadGltf(file).scene;
-  const View view = cli::chooseView(scene, "", kWidth, kHeight);
+  const View view = cli::chooseView(scene, "", PlayedSession::kWidth, PlayedSession::kHeight);
   const LevelRecording recording(std::move(scene), view);
   if (method == "truth") {
     writeReferences(recording, argv[3]);
