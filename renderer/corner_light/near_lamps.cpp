@@ -58,11 +58,15 @@ NearLamps::NearLamps(const RenderScene& scene, const RayCaster& rays, const Ligh
         scene.objects[e.object].triangleCount() <= kMostTriangles)
       emitterOf[ids[i]] = i;
   }
-  for (const LightSample& sample : table.samples) {
-    if (!sample.isLive || sample.id.bounce != 0) continue;
-    const auto it = emitterOf.find({sample.id.light, sample.id.emitter, 0, 0});
+  // Which slots samples have depends on former edits.
+  std::vector<const LightSample*> direct;
+  for (const LightSample& sample : table.samples)
+    if (sample.isLive && sample.id.bounce == 0) direct.push_back(&sample);
+  std::ranges::sort(direct, {}, [](const LightSample* s) { return s->id; });
+  for (const LightSample* sample : direct) {
+    const auto it = emitterOf.find({sample->id.light, sample->id.emitter, 0, 0});
     if (it == emitterOf.end()) continue;
-    shared::Vpl vpl = sample.vpl;
+    shared::Vpl vpl = sample->vpl;
     vpl.intensity = table.reference[static_cast<size_t>(vpl.slot)];
     byEmitter[it->second].vpls.push_back(vpl);
   }

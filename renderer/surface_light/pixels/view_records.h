@@ -60,8 +60,10 @@ class ViewRecords {
     uint32_t object = 0, place = 0, cell = 0;
     uint8_t level = 0, set = 0;
 
+    // Not if the object slid along its own surface: then another point of it is there.
     bool isSame(const Record& other) const {
-      return spot.position == other.spot.position && object == other.object && place == other.place;
+      return spot.position == other.spot.position && spot.turn == other.spot.turn &&
+             object == other.object && place == other.place;
     }
   };
   struct Near {

@@ -90,6 +90,9 @@ TEST_F(Repaired, EditsLeaveFreshBits) {
     renderer = std::move(used);
   };
   expectFresh(edit([&](Scene& s) { s.find(box)->local.translation.x += 0.2f; }), "place");
+  settings.set("indirect", std::string("meshes"));
+  expectFresh({}, "known light");
+  expectFresh(edit([&](Scene& s) { s.find(box)->local.translation.x -= 0.15f; }), "its place");
   expectFresh(edit([&](Scene& s) { s.find(lamp)->area->radiance *= 0.5f; }), "brightness");
   expectFresh(edit([&](Scene& s) { s.materials[0].baseColor.r = 0.2f; }), "colour");
   view.eye.x -= 0.2f;
