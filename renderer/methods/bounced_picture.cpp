@@ -86,6 +86,11 @@ InspectedLinks BouncedPicture::links() const {
   };
 }
 
+std::shared_ptr<const MirroredLight> BouncedPicture::surfaces(const FrameInputs& in) const {
+  if (light_.reflected().empty() || light_.part() == SurfaceLightPart::sky) return nullptr;
+  return std::make_shared<MeshMirror>(gatherScene(in), light_);
+}
+
 int BouncedPicture::framesLeft(int antialias) const {
   const uint64_t rays = light_.links().raysLeft() + records_.raysLeft();
   return static_cast<int>((rays + kRaysAFrame - 1) / kRaysAFrame) +

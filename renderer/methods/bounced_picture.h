@@ -41,6 +41,8 @@ class BouncedPicture {
   // Inspection::links, of the light of elements. Null without bounced light. Valid until the next
   // update.
   InspectedLinks links() const;
+  // GiOutput::surfaces. Null without bounced light. It refers to this object and to `in`.
+  std::shared_ptr<const MirroredLight> surfaces(const FrameInputs& in) const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const {
     return records_.bytes() + plain_.bytes() + plainLobes_.bytes() + smooth_.bytes() +

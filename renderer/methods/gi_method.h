@@ -21,6 +21,8 @@
 
 namespace lamplighter {
 
+class MirroredLight;
+
 // The caller supplies the stopwatch that measures the stages (null: not measured), so that no
 // method reads a clock. Measured times never influence the result.
 using Stopwatch = std::function<double()>;  // seconds since some fixed moment
@@ -79,6 +81,9 @@ struct GiOutput {
   // Direct light and emission are antialiased already, even if the picture has not settled. To
   // smooth their edges again would blur the outlines of bright lamps.
   bool hasSmoothEdges = false;
+  // If the picture has settled: the light that the method keeps on surfaces, if it does. Valid
+  // until the next call of the method.
+  std::shared_ptr<const MirroredLight> surfaces;
   GiStats stats;
   // An exception of work in the background, to be told once: the picture does without its result.
   std::exception_ptr failure;

@@ -66,4 +66,10 @@ vec3 TexelMirror::radianceOf(uint64_t place) const {
   return weights > 0.0f ? sum / (kPi * weights) : vec3(0.0f);
 }
 
+float TexelMirror::areaOf(uint64_t place) const {
+  const auto texel = static_cast<uint32_t>(place);
+  const TexelSet& texels = light_->texels();
+  return texel < texels.size() ? texels[texel].area : 0.0f;
+}
+
 }  // namespace lamplighter

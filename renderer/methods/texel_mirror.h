@@ -13,6 +13,7 @@ class TexelMirror final : public MirroredLight {
       : scene_(&scene), rays_(&rays), light_(&light) {}
   uint64_t placeOf(const Ray& ray, const Hit& hit) const override;
   vec3 radianceOf(uint64_t place) const override;
+  float areaOf(uint64_t place) const override;
   vec3 skyTowards(const vec3& direction) const override { return light_->skyTowards(direction); }
 
  private:

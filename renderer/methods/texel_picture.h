@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/methods/atlas_picture.h"
+#include "renderer/methods/texel_mirror.h"
 
 namespace lamplighter {
 
@@ -26,6 +27,11 @@ class TexelPicture {
   }
   bool isDone(int antialias) const { return light_.isDone() && picture_.isDone(antialias); }
   const Light& light() const { return light_; }
+  // GiOutput::surfaces. It refers to this object and to `in`.
+  std::shared_ptr<const MirroredLight> surfaces(const FrameInputs& in) const {
+    if (light_.reflected().empty()) return nullptr;
+    return std::make_shared<TexelMirror>(in.scene, in.services.rays(), light_);
+  }
 
  protected:
   Light light_;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
+#include "renderer/path_repair/known_surfaces.h"
 
 namespace lamplighter {
 namespace {
@@ -14,20 +15,27 @@ namespace {
 constexpr uint32_t kRepairSet = 0x4e9a1;
 uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0, kRepairSet); }
 
-// A step of the filter takes about as long as the paths of this share of the rows.
-constexpr int kStepShare = 16;
-// The memory of the filter is some 250 bytes a pixel: larger pictures are not repaired.
+// Of so many paths that end at known light one goes on, to find what that light lacks.
+constexpr int kPathsAWhole = 4;
+// Russian roulette of those begins at this bounce.
+constexpr int kSureBounces = 2;
+
+// So many rows of a step of the filter take about as long as a row of paths.
+constexpr int kFilterRows = 32;
+// The memory of the filter is some 300 bytes a pixel: larger pictures are not repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
 // Whether the picture after so many paths is filtered: always half as many more than the last.
 bool isShown(int paths, int last, int all) {
-  return paths % 2 == 0 && (paths >= all || 2 * paths >= 3 * last);
+  if (paths >= all) return true;
+  const int step = paths < 16 ? 2 : 2 * PathSums::kGroup;
+  return paths % step == 0 && 2 * paths >= 3 * last;
 }
 
 }  // namespace
 
 bool PathRepair::isDone(const Options& options) const {
-  return first_.empty() || (paths_ >= options.paths && !filter_);
+  return seen_.first.empty() || (paths_ >= options.paths && !filter_);
 }
 
 void PathRepair::begin(const FrameInputs& in, const Options& options,
@@ -41,34 +49,52 @@ void PathRepair::begin(const FrameInputs& in, const Options& options,
   in.backend.renderGBuffer(in.view, vec2(0.0f));
   guides_ = RepairGuides(in.backend.hostGBuffer(), in.view, in.lightOnly);
   lights_ = LightSet(in.scene);
-  first_ = second_ = Image(in.view.width, in.view.height);
+  seen_ = PathSums(in.view.width, in.view.height);
 }
 
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
-                     const std::shared_ptr<RadianceImage>& live, int most) {
+                     const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces,
+                     int most) {
   const bool isOther = !in.changes.none() || live != live_ || in.view != view_ ||
-                       options.path != path_ || paths_ > options.paths;
-  if (isOther) begin(in, options, live);
+                       options.path != path_ || paths_ > options.paths ||
+                       (surfaces != nullptr) != endsAtSurfaces_;
+  if (isOther) {
+    begin(in, options, live);
+    endsAtSurfaces_ = surfaces != nullptr;
+    if (endsAtSurfaces_) missing_ = PathSums(in.view.width, in.view.height);
+  }
   int done = 0;
   while (done < most && !isDone(options))
-    done += filter_ ? filter() : tracePaths(in, options, most - done);
+    done += filter_ ? filter(most - done) : tracePaths(in, options, surfaces, most - done);
   return done;
 }
 
-int PathRepair::tracePaths(const FrameInputs& in, const Options& options, int most) {
+int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
+                           const MirroredLight* surfaces, int most) {
   const View& view = in.view;
   const int end = std::min(row_ + most, view.height);
   PathTracerOptions path = options.path;
   const bool isFirst = paths_ % 2 == 0;
   path.seed = seedOfHalf(path.seed, isFirst ? 0 : 1);
-  Image& sums = isFirst ? first_ : second_;
+  path.sureBounces = kSureBounces;
   const auto sample = static_cast<uint32_t>(paths_ / 2);
+  const bool isWhole = surfaces != nullptr && sample % kPathsAWhole == 0;
   const RayCaster& caster = in.services.rays();
   std::atomic<uint64_t> rays = 0;
   tbb::parallel_for(row_, end, [&](int y) {
     uint64_t traced = 0;
-    for (int x = 0; x < view.width; ++x)
-      sums.at(x, y) += tracePath(in.scene, caster, lights_, view, x, y, sample, path, &traced);
+    for (int x = 0; x < view.width; ++x) {
+      const auto i = static_cast<size_t>(y * view.width + x);
+      if (surfaces == nullptr) {
+        seen_.add(isFirst, i,
+                  tracePath(in.scene, caster, lights_, view, x, y, sample, path, &traced));
+        continue;
+      }
+      const EndedPath p = traceEndedPath(in.scene, caster, lights_, view, x, y, sample, path,
+                                         KnownSurfaces(*surfaces), isWhole, &traced);
+      seen_.add(isFirst, i, p.radiance);
+      if (isWhole) missing_.add(isFirst, i, p.missing);
+    }
     rays += traced;
   });
   rays_ += rays;
@@ -76,23 +102,39 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options, int mo
   if (row_ < view.height) return rows;
   row_ = 0;
   ++paths_;
+  seen_.endPath();
+  if (isWhole) missing_.endPath();
   if (isShown(paths_, shown_, options.paths))
-    filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), first_, second_, paths_);
+    filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), seen_);
   return rows;
 }
 
-int PathRepair::filter() {
-  filter_->step();
-  if (filter_->isDone()) {
-    const Image& live = live_->pixels();
-    Image out = filter_->takeResidual();
-    for (size_t i = 0; i < out.pixels.size(); ++i)
-      out.pixels[i] = glm::max(live.pixels[i] + out.pixels[i], vec3(0.0f));
-    repaired_ = std::make_shared<HostImage>(std::move(out));
-    shown_ = paths_;
-    filter_.reset();
+// Returns the work in rows of paths.
+int PathRepair::filter(int most) {
+  const int rows = filter_->step(kFilterRows * most);
+  const int work = (rows + kFilterRows - 1) / kFilterRows;
+  if (!filter_->isDone()) return work;
+  Image residual = filter_->takeResidual();
+  filter_.reset();
+  if (endsAtSurfaces_ && !residual_) {
+    residual_ = std::move(residual);
+    filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), missing_,
+                                               ResidualFilter::Estimate::residual);
+    return work;
   }
-  return std::max(guides_.height / kStepShare, 1);
+  if (residual_)
+    for (size_t i = 0; i < residual.pixels.size(); ++i) residual.pixels[i] += residual_->pixels[i];
+  residual_.reset();
+  show(residual);
+  return work;
+}
+
+void PathRepair::show(const Image& residual) {
+  Image out = live_->pixels();
+  for (size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] = glm::max(out.pixels[i] + residual.pixels[i], vec3(0.0f));
+  repaired_ = std::make_shared<HostImage>(std::move(out));
+  shown_ = paths_;
 }
 
 }  // namespace lamplighter

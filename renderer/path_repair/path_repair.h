@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "renderer/methods/gi_method.h"
@@ -21,11 +22,12 @@ class PathRepair {
 
   void restart() { *this = PathRepair(); }
   // Does work that takes as long as at most `most` rows of paths, and returns it. `live`: the
-  // settled picture. Starts anew if the scene, the view, the picture or the kind of paths is
+  // settled picture. `surfaces`: light on surfaces at which paths may end, of the same scene; null:
+  // none. Starts anew if the scene, the view, the picture or the kind of paths is
   // another than in the last call, or if there are more paths than wanted; then draws the G-buffer
   // of the view, without a shift.
   int goOn(const FrameInputs& in, const Options& options,
-           const std::shared_ptr<RadianceImage>& live, int most);
+           const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces, int most);
 
   // After goOn() with these options: whether image() has all paths.
   bool isDone(const Options& options) const;
@@ -37,19 +39,25 @@ class PathRepair {
  private:
   void begin(const FrameInputs& in, const Options& options,
              const std::shared_ptr<RadianceImage>& live);
-  int tracePaths(const FrameInputs& in, const Options& options, int most);
-  int filter();
+  int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
+                 int most);
+  int filter(int most);
+  void show(const Image& residual);
 
   std::shared_ptr<RadianceImage> live_;  // null: not begun
   View view_;
   PathTracerOptions path_;
   RepairGuides guides_;
   LightSet lights_;
-  Image first_, second_;  // sums of the paths of both halves
-  int paths_ = 0;         // whole ones
-  int row_ = 0;           // from which on the next paths are missing
-  int shown_ = 0;         // paths of repaired_
-  std::unique_ptr<ResidualFilter> filter_;
+  // What paths see that end at known light, and what that light lacks: by fewer paths, because it
+  // is the same for many pixels.
+  PathSums seen_, missing_;
+  bool endsAtSurfaces_ = false;
+  int paths_ = 0;                           // complete in each pixel
+  int row_ = 0;                             // from which on the next paths are missing
+  int shown_ = 0;                           // paths of repaired_
+  std::unique_ptr<ResidualFilter> filter_;  // of seen_, then of missing_
+  std::optional<Image> residual_;           // of seen_, while missing_ is filtered
   uint64_t rays_ = 0;
   std::shared_ptr<RadianceImage> repaired_;
 };

@@ -95,8 +95,8 @@ class RepairedMethod final : public GiMethod {
 
   void repair(const FrameInputs& in, const PathRepair::Options& options, GiOutput& out,
               RepairStats& stats) {
-    out.stats.refineUpdates =
-        repair_.goOn(in, options, out.radiance, in.services.budget().refineUpdates);
+    out.stats.refineUpdates = repair_.goOn(in, options, out.radiance, out.surfaces.get(),
+                                           in.services.budget().refineUpdates);
     out.refined = repair_.isDone(options);
     if (repair_.image()) out.radiance = repair_.image();
     stats = {repair_.paths(), options.paths, repair_.takeRays()};

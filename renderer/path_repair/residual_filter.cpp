@@ -15,8 +15,14 @@ constexpr int kTamings = 2, kTamingStep = 8;
 // A difference between the halves so many times above the usual one around is bounded. Likewise a
 // residual; that bound grows with the number of paths, so that the limit is exact.
 constexpr float kMostDifference = 3.0f, kMostResidual = 3.0f, kPathsABound = 32.0f;
-// What both halves have in common must be above the noise by so much [variances].
-constexpr float kSure = 1.5f;
+// What both halves have in common must be above the noise by so much [variances], and the noise
+// around a pixel counts as so many pixels of the usual noise of the picture. Fine bands need more:
+// there, two bright paths that meet by chance show as a spot. What known light lacks is smooth.
+struct Doubt {
+  float variances, usualPixels;
+};
+constexpr Doubt kFineDoubt{2.0f, 4.0f}, kCoarseDoubt{0.75f, 2.0f}, kResidualDoubt{1.0f, 4.0f};
+constexpr int kFineBands = 3;
 // A band is shown from the first number of paths behind a pixel on, and fully from three times as
 // many on: before, two bright paths may meet by chance.
 constexpr float kLeastPaths = 16.0f;
@@ -26,9 +32,15 @@ constexpr float kCorrelation = 1.78f;
 // Pixels that show no surface, or a border of a lamp, take the mean of their paths, beside the live
 // picture as so many paths: the shifted pictures that antialias it.
 constexpr float kLivePaths = 16.0f;
-// The noise around a pixel counts as so many pixels of the usual noise of the picture; with few
-// paths as more, because paths that find nothing show no noise.
-constexpr float kUsualPixels = 8.0f, kUsualPaths = 64.0f;
+// With few paths, more pixels of the usual noise: paths that find nothing show no noise.
+constexpr float kUsualPaths = 64.0f;
+// What is left of a pixel after all bands must exceed so many of its variances, and more where
+// these are known from few groups of paths.
+constexpr float kSurePixel = 9.0f, kFewGroups = 10.0f;
+// Pixels whose mean after the fine bands still has this share of their noise have few neighbours
+// that show the same surface: leaves, legs of chairs, edges. From twice that on they take all of
+// their own paths.
+constexpr float kAlone = 0.1f;
 
 float squareOf(const vec3& v) { return glm::dot(v, v); }
 
@@ -115,101 +127,135 @@ struct ResidualFilter::Noise {
   }
 };
 
-ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, const Image& first,
-                               const Image& second, int paths)
+ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, const PathSums& sums,
+                               Estimate estimate)
     : guides_(guides),
       live_(live),
-      first_(first),
-      second_(second),
-      paths_(paths),
+      paths_(sums),
+      estimate_(estimate),
       residual_(guides.width, guides.height) {
   const size_t pixels = live.pixels.size();
   tame_.resize(pixels);
   bounds_.resize(pixels);
   nextBounds_.resize(pixels);
+  sums_.resize(pixels);
+  nextSums_.resize(pixels);
+  variance_.resize(pixels);
+  fineVariance_.resize(pixels);
+  detail_.resize(pixels);
   powers_.resize(pixels);
   nextPowers_.resize(pixels);
   noise_.resize(pixels);
   nextNoise_.resize(pixels);
-  const float scale = 2.0f / static_cast<float>(paths);
-  steps_.push_back([this, scale] {
-    forSurfaces(guides_, [&](int, int, size_t i) {
-      tame_[i] = {scale * first_.pixels[i] - live_.pixels[i],
-                  scale * second_.pixels[i] - live_.pixels[i]};
-    });
-    takeUsualNoise();
-    takeBorders();
-  });
-  for (int round = 0; round < kTamings; ++round) {
-    steps_.push_back([this] {
-      forSurfaces(guides_, [&](int, int, size_t i) {
-        const vec3& albedo = guides_.albedo[i];
-        bounds_[i] = {squareOf(2.0f * tame_[i].half() / albedo),
-                      squareOf(tame_[i].mean() / albedo)};
-      });
-    });
-    for (int step = 1; step <= kTamingStep; step *= 2)
-      steps_.push_back([this, step] {
-        takeSurfaceMeans(guides_, bounds_, step, nextBounds_);
-        bounds_.swap(nextBounds_);
-      });
-    steps_.push_back([this] { tame(); });
-  }
-  steps_.push_back([this] { beginBands(); });
-  for (int band = 0; band <= kBands; ++band) {
-    const int step = 1 << std::min(band, kBands - 1);
-    if (band < kBands)
-      steps_.push_back([this, step] {
-        forSurfaces(guides_, [&](int, int, size_t i) { variance_[i] = sums_[i].variance; });
-        takeSurfaceMeans(guides_, sums_, step, nextSums_);
-        sums_.swap(nextSums_);
-        takeDetail();
-      });
-    else
-      steps_.push_back([this] { takeBase(); });
-    for (const int wider : {1, 2})
-      steps_.push_back([this, step, wider] {
-        takeSurfaceMeans(guides_, powers_, wider * step, nextPowers_);
-        powers_.swap(nextPowers_);
-      });
-    steps_.push_back([this, step] {
-      beginNoise();
-      takeSurfaceMeans(guides_, noise_, 4 * step, nextNoise_);
-      noise_.swap(nextNoise_);
-    });
-    steps_.push_back([this] { addBand(); });
-  }
+  steps_.push_back([this](Rows rows) { begin(rows); });
+  for (int round = 0; round < kTamings; ++round) planTaming();
+  steps_.push_back([this](Rows rows) { beginBands(rows); });
+  for (int band = 0; band <= kBands; ++band) planBand(band);
+  // What known light lacks has no edges.
+  if (estimate_ == Estimate::truth && paths_.knowsVariance()) planPixels();
 }
 
 ResidualFilter::~ResidualFilter() = default;
 
-void ResidualFilter::step() { steps_[next_++](); }
-
-void ResidualFilter::takeBorders() {
-  const auto paths = static_cast<float>(paths_);
-  for (size_t i = 0; i < live_.pixels.size(); ++i) {
-    if (guides_.normal[i] != vec3(0.0f)) continue;
-    const vec3 mean = (first_.pixels[i] + second_.pixels[i]) / paths;
-    residual_.pixels[i] = paths / (paths + kLivePaths) * (mean - live_.pixels[i]);
-  }
+// What is subtracted from the estimate.
+vec3 ResidualFilter::known(size_t pixel) const {
+  return estimate_ == Estimate::truth ? live_.pixels[pixel] : vec3(0.0f);
 }
 
-// Of a path for a pixel, by the square of the picture: over the whole picture.
-void ResidualFilter::takeUsualNoise() {
-  double noise = 0.0, live = 0.0;
-  for (size_t i = 0; i < tame_.size(); ++i) {
-    if (guides_.normal[i] == vec3(0.0f)) continue;
-    noise += static_cast<double>(squareOf(tame_[i].half()));
-    live += static_cast<double>(squareOf(live_.pixels[i]));
+int ResidualFilter::step(int mostRows) {
+  const Rows rows{row_, std::min(row_ + mostRows, guides_.height)};
+  steps_[next_](rows);
+  row_ = rows.last;
+  if (row_ == guides_.height) {
+    row_ = 0;
+    ++next_;
   }
-  usualNoise_ = live > 0.0 ? static_cast<float>(noise / live) : 0.0f;
+  return rows.last - rows.first;
+}
+
+template <typename T>
+void ResidualFilter::planMeans(std::vector<T>& of, std::vector<T>& next, int step) {
+  steps_.push_back([this, &of, &next, step](Rows rows) {
+    takeSurfaceMeans(guides_, rows, of, step, next);
+    if (rows.last == guides_.height) of.swap(next);
+  });
+}
+
+void ResidualFilter::planTaming() {
+  steps_.push_back([this](Rows rows) { takeBounds(rows); });
+  for (int step = 1; step <= kTamingStep; step *= 2) planMeans(bounds_, nextBounds_, step);
+  steps_.push_back([this](Rows rows) { tame(rows); });
+}
+
+void ResidualFilter::planBand(int band) {
+  const int step = 1 << std::min(band, kBands - 1);
+  if (band < kBands) {
+    steps_.push_back([this, band](Rows rows) {
+      forSurfaces(guides_, rows, [&](int, int, size_t i) {
+        variance_[i] = sums_[i].variance;
+        if (band == kFineBands) fineVariance_[i] = sums_[i].variance;
+      });
+    });
+    planMeans(sums_, nextSums_, step);
+    steps_.push_back([this](Rows rows) { takeDetail(rows); });
+  } else {
+    steps_.push_back([this](Rows rows) { takeBase(rows); });
+  }
+  for (const int wider : {1, 2}) planMeans(powers_, nextPowers_, wider * step);
+  steps_.push_back([this](Rows rows) {
+    forSurfaces(guides_, rows, [&](int, int, size_t i) {
+      noise_[i] = {powers_[i].noise, powers_[i].share};
+    });
+  });
+  planMeans(noise_, nextNoise_, 4 * step);
+  steps_.push_back([this, band](Rows rows) { addBand(band, rows); });
+}
+
+void ResidualFilter::planPixels() {
+  steps_.push_back([this](Rows rows) {
+    forSurfaces(guides_, rows, [&](int, int, size_t i) {
+      noise_[i].noise = paths_.variance(i) / squareOf(guides_.albedo[i]);
+    });
+  });
+  for (const int step : {1, 2, 4}) planMeans(noise_, nextNoise_, step);
+  steps_.push_back([this](Rows rows) { addPixels(rows); });
+}
+
+vec3 ResidualFilter::mean(size_t pixel) const {
+  return (paths_.first.pixels[pixel] + paths_.second.pixels[pixel]) /
+         static_cast<float>(paths_.paths);
+}
+
+// Residuals of both halves; of pixels that show no surface all that is shown of it.
+void ResidualFilter::begin(Rows rows) {
+  const auto paths = static_cast<float>(paths_.paths);
+  const float scale = 2.0f / paths;
+  for (int y = rows.first; y < rows.last; ++y)
+    for (int x = 0; x < guides_.width; ++x) {
+      const auto i = static_cast<size_t>(y * guides_.width + x);
+      if (guides_.normal[i] == vec3(0.0f)) {
+        residual_.pixels[i] = paths / (paths + kLivePaths) * (mean(i) - known(i));
+        continue;
+      }
+      tame_[i] = {scale * paths_.first.pixels[i] - known(i),
+                  scale * paths_.second.pixels[i] - known(i)};
+      allNoise_ += static_cast<double>(squareOf(tame_[i].half()));
+      allLight_ += static_cast<double>(squareOf(live_.pixels[i]));
+    }
+}
+
+void ResidualFilter::takeBounds(Rows rows) {
+  forSurfaces(guides_, rows, [&](int, int, size_t i) {
+    const vec3& albedo = guides_.albedo[i];
+    bounds_[i] = {squareOf(2.0f * tame_[i].half() / albedo), squareOf(tame_[i].mean() / albedo)};
+  });
 }
 
 // Bounds what is far brighter in one half than in the other, and what is far brighter than all
 // around it: single bright paths.
-void ResidualFilter::tame() {
-  const float mostResidual = kMostResidual + static_cast<float>(paths_) / kPathsABound;
-  forSurfaces(guides_, [&](int, int, size_t i) {
+void ResidualFilter::tame(Rows rows) {
+  const float mostResidual = kMostResidual + static_cast<float>(paths_.paths) / kPathsABound;
+  forSurfaces(guides_, rows, [&](int, int, size_t i) {
     Halves& h = tame_[i];
     const vec3& albedo = guides_.albedo[i];
     const vec3 difference = 2.0f * h.half() / albedo;
@@ -230,28 +276,24 @@ void ResidualFilter::tame() {
   });
 }
 
-void ResidualFilter::beginBands() {
-  bounds_ = {};
-  nextBounds_ = {};
-  sums_.resize(tame_.size());
-  nextSums_.resize(tame_.size());
-  variance_.resize(tame_.size());
-  detail_.resize(tame_.size());
-  const float scale = 1.0f / static_cast<float>(paths_);
-  forSurfaces(guides_, [&](int, int, size_t i) {
+void ResidualFilter::beginBands(Rows rows) {
+  forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3& albedo = guides_.albedo[i];
-    const vec3 all = scale * (first_.pixels[i] + second_.pixels[i]) - live_.pixels[i];
+    const vec3 all = mean(i) - known(i);
     sums_[i] = {{albedo * tame_[i].first, albedo * tame_[i].second},
                 albedo * (all - tame_[i].mean()),
                 albedo * albedo,
                 1.0f};
   });
+  if (rows.last < guides_.height) return;
   smooth_ = std::move(tame_);
+  bounds_ = {};
+  nextBounds_ = {};
 }
 
 // What the last means took away.
-void ResidualFilter::takeDetail() {
-  forSurfaces(guides_, [&](int, int, size_t i) {
+void ResidualFilter::takeDetail(Rows rows) {
+  forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3 scale = guides_.albedo[i] / sums_[i].squares;
     const Halves now{scale * sums_[i].tame.first, scale * sums_[i].tame.second};
     const Halves detail{smooth_[i].first - now.first, smooth_[i].second - now.second};
@@ -263,8 +305,8 @@ void ResidualFilter::takeDetail() {
 }
 
 // What is left: the mean over the whole surroundings, with all that was bounded.
-void ResidualFilter::takeBase() {
-  forSurfaces(guides_, [&](int, int, size_t i) {
+void ResidualFilter::takeBase(Rows rows) {
+  forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3 excess = guides_.albedo[i] / sums_[i].squares * sums_[i].excess;
     variance_[i] = sums_[i].variance;
     detail_[i] = {smooth_[i].first + excess, smooth_[i].second + excess};
@@ -273,24 +315,40 @@ void ResidualFilter::takeBase() {
   });
 }
 
-void ResidualFilter::beginNoise() {
-  forSurfaces(guides_, [&](int, int, size_t i) {
-    noise_[i] = {powers_[i].noise, powers_[i].share};
-  });
-}
-
-void ResidualFilter::addBand() {
-  const auto paths = static_cast<float>(paths_);
-  const float usualPixels = kUsualPixels + kUsualPaths / paths;
-  forSurfaces(guides_, [&](int, int, size_t i) {
-    const float usual = usualNoise_ * squareOf(live_.pixels[i]) * variance_[i];
+void ResidualFilter::addBand(int band, Rows rows) {
+  const auto paths = static_cast<float>(paths_.paths);
+  const Doubt doubt = estimate_ == Estimate::residual ? kResidualDoubt
+                      : band < kFineBands             ? kFineDoubt
+                                                      : kCoarseDoubt;
+  const float usualPixels = doubt.usualPixels + kUsualPaths / paths;
+  // Of a path, by the square of the picture.
+  const auto usualNoise = allLight_ > 0.0 ? static_cast<float>(allNoise_ / allLight_) : 0.0f;
+  forSurfaces(guides_, rows, [&](int, int, size_t i) {
+    const float usual = usualNoise * squareOf(live_.pixels[i]) * variance_[i];
     const float pixels = 1.0f / noise_[i].share;
     const float noise = (pixels * noise_[i].noise + usualPixels * usual) / (pixels + usualPixels);
     const Powers& p = powers_[i];
     if (!(p.mean > 0.0f)) return;
     const float shown = std::clamp(0.5f * (paths / variance_[i] / kLeastPaths - 1.0f), 0.0f, 1.0f);
-    const float share = std::clamp((p.common - kSure * noise) / p.mean, 0.0f, 1.0f);
+    const float share = std::clamp((p.common - doubt.variances * noise) / p.mean, 0.0f, 1.0f);
     residual_.pixels[i] += shown * share * detail_[i].mean();
+  });
+}
+
+// What the bands leave out of single pixels: edges of surfaces and of shadows that the picture has
+// at the wrong place. It is shown where it exceeds by far the noise of the paths of the pixel and,
+// because paths that find nothing show none, of those around it.
+void ResidualFilter::addPixels(Rows rows) {
+  const auto paths = static_cast<float>(paths_.paths);
+  const float sure = kSurePixel * (1.0f + kFewGroups / static_cast<float>(paths_.groups()));
+  forSurfaces(guides_, rows, [&](int, int, size_t i) {
+    const vec3 left = mean(i) - known(i) - residual_.pixels[i];
+    const float power = squareOf(left);
+    if (!(power > 0.0f)) return;
+    const float noise = std::max(paths_.variance(i), squareOf(guides_.albedo[i]) * noise_[i].noise);
+    const float alone = std::clamp(fineVariance_[i] / kAlone - 1.0f, 0.0f, 1.0f);
+    const float share = std::max(1.0f - sure * noise / power, alone * paths / (paths + kLivePaths));
+    residual_.pixels[i] += share * left;
   });
 }
 

@@ -1,11 +1,12 @@
-// Estimates what a picture lacks from two noisy pictures of the truth that share no random numbers.
+// Estimates what a picture lacks from two noisy estimates that share no random numbers.
 #pragma once
 
 #include <functional>
 #include <vector>
 
-#include "renderer/image/image.h"
+#include "renderer/path_repair/path_sums.h"
 #include "renderer/path_repair/repair_guides.h"
+#include "renderer/path_repair/surface_mean.h"
 
 namespace lamplighter {
 
@@ -16,17 +17,18 @@ namespace lamplighter {
 // it is.
 class ResidualFilter {
  public:
-  // `first`, `second`: sums of `paths` / 2 paths for each pixel. All arguments must stay as they
-  // are until the filter is done.
-  ResidualFilter(const RepairGuides& guides, const Image& live, const Image& first,
-                 const Image& second, int paths);
+  // What paths are an estimate of: the truth, or its difference to the picture.
+  enum class Estimate : uint8_t { truth, residual };
+  // All arguments must stay as they are until the filter is done.
+  ResidualFilter(const RepairGuides& guides, const Image& live, const PathSums& sums,
+                 Estimate estimate = Estimate::truth);
   ~ResidualFilter();
   ResidualFilter(const ResidualFilter&) = delete;
   ResidualFilter& operator=(const ResidualFilter&) = delete;
 
-  // The work is done in steps that take about the same time.
+  // Goes through the picture many times, a number of rows in each call. Returns how many.
   bool isDone() const { return next_ == steps_.size(); }
-  void step();
+  int step(int mostRows);
   // Once, when it is done: the residual [W/(m² sr)].
   Image takeResidual() { return std::move(residual_); }
 
@@ -36,28 +38,41 @@ class ResidualFilter {
   struct Bounds;
   struct Powers;
   struct Noise;
-  void tame();
-  void takeUsualNoise();
-  void takeBorders();
-  void beginBands();
-  void takeDetail();
-  void takeBase();
-  void beginNoise();
-  void addBand();
+  using Step = std::function<void(Rows)>;
+  template <typename T>
+  void planMeans(std::vector<T>& of, std::vector<T>& next, int step);
+  void planTaming();
+  void planBand(int band);
+  void planPixels();
+
+  vec3 known(size_t pixel) const;
+  vec3 mean(size_t pixel) const;
+  void begin(Rows rows);
+  void takeBounds(Rows rows);
+  void tame(Rows rows);
+  void beginBands(Rows rows);
+  void takeDetail(Rows rows);
+  void takeBase(Rows rows);
+  void addBand(int band, Rows rows);
+  void addPixels(Rows rows);
 
   const RepairGuides& guides_;
-  const Image &live_, &first_, &second_;
-  int paths_;
-  std::vector<std::function<void()>> steps_;
+  const Image& live_;
+  const PathSums& paths_;
+  Estimate estimate_;
+  std::vector<Step> steps_;  // each for all rows
   size_t next_ = 0;
+  int row_ = 0;  // from which on the next step is missing
   Image residual_;
-  float usualNoise_ = 0.0f;
+  // Squares of what the halves differ by, and of the picture: over the whole picture.
+  double allNoise_ = 0.0, allLight_ = 0.0;
   std::vector<Halves> tame_, smooth_, detail_;
   std::vector<Bounds> bounds_, nextBounds_;
   std::vector<Sums> sums_, nextSums_;
   std::vector<Powers> powers_, nextPowers_;
   std::vector<Noise> noise_, nextNoise_;
-  std::vector<float> variance_;
+  std::vector<float> variance_;      // of the last means, with that of a pixel 1
+  std::vector<float> fineVariance_;  // after the fine bands
 };
 
 }  // namespace lamplighter

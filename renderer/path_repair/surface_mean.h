@@ -11,10 +11,15 @@
 
 namespace lamplighter {
 
-// Calls f(x, y, index) for all pixels that show a surface, in parallel.
+// Rows of a picture: from `first` up to `last`, without that.
+struct Rows {
+  int first = 0, last = 0;
+};
+
+// Calls f(x, y, index) for all pixels of these rows that show a surface, in parallel.
 template <typename F>
-void forSurfaces(const RepairGuides& guides, const F& f) {
-  tbb::parallel_for(0, guides.height, [&](int y) {
+void forSurfaces(const RepairGuides& guides, Rows rows, const F& f) {
+  tbb::parallel_for(rows.first, rows.last, [&](int y) {
     for (int x = 0; x < guides.width; ++x) {
       const auto i = static_cast<size_t>(y * guides.width + x);
       if (guides.normal[i] != vec3(0.0f)) f(x, y, i);
@@ -24,13 +29,13 @@ void forSurfaces(const RepairGuides& guides, const F& f) {
 
 // From pixels at a distance of 0 or `step` in each direction: T::add(weight, T) sums, then
 // T::divide(sum of weights). Weights fall with the angle between normals and with the distance off
-// the plane of the pixel.
+// the plane of the pixel. `to`: receives these rows.
 template <typename T>
-void takeSurfaceMeans(const RepairGuides& guides, const std::vector<T>& from, int step,
+void takeSurfaceMeans(const RepairGuides& guides, Rows rows, const std::vector<T>& from, int step,
                       std::vector<T>& to) {
   // Linear B-spline, by distance from the middle.
   constexpr std::array<float, 2> kSpline{0.5f, 0.25f};
-  forSurfaces(guides, [&](int x, int y, size_t i) {
+  forSurfaces(guides, rows, [&](int x, int y, size_t i) {
     const vec3 normal = guides.normal[i], position = guides.position[i];
     // Points a pixel off the plane share nothing with it; where the step is longer, so many more.
     const float tolerance = 1.0f / (guides.footprint[i] * static_cast<float>(step));

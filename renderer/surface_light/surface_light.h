@@ -69,6 +69,8 @@ class SurfaceLight {
   SurfaceLightPart part() const { return options_.part; }
   // How well the mesh shows the light at a point, from 0 to 1: not where surfaces are near compared
   // with an element, nor on elements that are cut by walls or stand for many small triangles.
+  // Whether a part of an element is buried or behind a wall.
+  bool isMixed(uint32_t leaf) const { return state_.isMixed.empty() || state_.isMixed[leaf] != 0; }
   float trustAt(const MeshPoint& point) const;
   // Whether it lies inside of an object or behind a wall, and has the light of its neighbours.
   bool isBuried(uint32_t sample) const { return state_.smoothing.isBuried(sample); }

@@ -190,6 +190,7 @@ void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageT
   out.radiance = meshes_.addTo(in, out.radiance, samples, gbufferIsCurrent_);
   if (!meshes_.isDone(options.antialias)) refinement_.restart();
   out.settled = out.settled && meshes_.isDone(options.antialias);
+  if (out.settled) out.surfaces = meshes_.surfaces(in);
   out.refined = out.refined && out.settled;
   if (!out.settled)
     stats.framesUntilSettled =
@@ -214,6 +215,7 @@ void ManyLights::addLinks(const FrameInputs& in, const Options& options, StageTi
   const bool isDone = linked_.isDone(options.antialias);
   if (!isDone) refinement_.restart();
   out.settled = out.settled && isDone;
+  if (out.settled) out.surfaces = linked_.surfaces(in);
   out.refined = out.refined && out.settled;
   if (!out.settled)
     stats.framesUntilSettled =
@@ -241,6 +243,7 @@ void ManyLights::addField(const FrameInputs& in, const Options& options, StageTi
   const bool isDone = field_.isDone(options.antialias);
   if (!isDone) refinement_.restart();
   out.settled = out.settled && isDone;
+  if (out.settled) out.surfaces = field_.surfaces(in);
   out.refined = out.refined && out.settled;
   if (!out.settled)
     stats.framesUntilSettled =

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "renderer/methods/light_part.h"
+#include "renderer/methods/path_tracer/known_light.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/scene/camera.h"
@@ -25,6 +26,8 @@ struct PathTracerOptions {
   bool glossyBounces = false;
   // Both parts use the same random numbers, so they add up to the whole.
   LightPart part = LightPart::all;
+  // Russian roulette starts after this number of bounces; before it, no path is terminated.
+  int sureBounces = 8;
 
   bool operator==(const PathTracerOptions&) const = default;
 };
@@ -35,6 +38,17 @@ struct PathTracerOptions {
 vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
                const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options,
                uint64_t* raysTraced = nullptr);
+
+// An estimate by a path that ends where light is known, and what it lacks because that light is not
+// exact. The expected value of radiance + missing is that of tracePath().
+struct EndedPath {
+  vec3 radiance{0.0f}, missing{0.0f};
+};
+// `isWhole`: the path goes on, to find what is missing; otherwise that is 0.
+EndedPath traceEndedPath(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
+                         const View& view, int x, int y, uint32_t sample,
+                         const PathTracerOptions& options, const KnownLight& known, bool isWhole,
+                         uint64_t* raysTraced = nullptr);
 
 // A surface point on the side of its unit normal; a smooth surface has a separate shading normal.
 struct ReceivingPlace {

@@ -13,6 +13,7 @@ class MeshMirror final : public MirroredLight {
   MeshMirror(const GatherScene& scene, const SurfaceLight& light) : scene_(scene), light_(&light) {}
   uint64_t placeOf(const Ray& ray, const Hit& hit) const override;
   vec3 radianceOf(uint64_t place) const override;
+  float areaOf(uint64_t place) const override;
   vec3 skyTowards(const vec3& direction) const override;
 
  private:

@@ -15,6 +15,9 @@ class MirroredLight {
   virtual uint64_t placeOf(const Ray& ray, const Hit& hit) const = 0;
   // What such a place sends now [W/(m² sr)].
   virtual vec3 radianceOf(uint64_t place) const = 0;
+  // Over how large an area light is kept as one value [m²]; infinite where it is not that of the
+  // surface at the place: of elements that stand for many small triangles, or are cut by a wall.
+  virtual float areaOf(uint64_t place) const = 0;
   // What a ray that hits nothing sees [W/(m² sr)]; 0 if the sky is shown by something else.
   virtual vec3 skyTowards(const vec3& direction) const = 0;
 };

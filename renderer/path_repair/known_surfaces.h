@@ -1,0 +1,26 @@
+// Light that a method keeps on surfaces, where paths of repair end.
+#pragma once
+
+#include "renderer/methods/path_tracer/known_light.h"
+#include "renderer/surface_light/pixels/mirrored_light.h"
+
+namespace lamplighter {
+
+class KnownSurfaces final : public KnownLight {
+ public:
+  // Refers to its argument.
+  explicit KnownSurfaces(const MirroredLight& light) : light_(light) {}
+
+  // Not in corners and in mirrors, where paths spread little compared with what is kept as one.
+  std::optional<vec3> reflectedAt(const Ray& ray, const Hit& hit, float spread) const override {
+    const uint64_t place = light_.placeOf(ray, hit);
+    if (spread < kLeastSpread * light_.areaOf(place)) return std::nullopt;
+    return light_.radianceOf(place);
+  }
+
+ private:
+  static constexpr float kLeastSpread = 4.0f;
+  const MirroredLight& light_;
+};
+
+}  // namespace lamplighter

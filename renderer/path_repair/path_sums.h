@@ -1,0 +1,52 @@
+// Sums of paths by pixel, in two halves that share no random numbers, and how much they vary.
+#pragma once
+
+#include <vector>
+
+#include "renderer/image/image.h"
+
+namespace lamplighter {
+
+class PathSums {
+ public:
+  // Consecutive paths of a half that are stratified together: the variance is that of their means.
+  static constexpr int kGroup = 4;
+
+  PathSums() = default;
+  PathSums(int width, int height)
+      : first(width, height),
+        second(width, height),
+        squares_(first.pixels.size(), 0.0f),
+        groups_{first, second} {}
+
+  // One path of each pixel of a half; several threads may add different pixels.
+  void add(bool isFirst, size_t pixel, const vec3& radiance) {
+    (isFirst ? first : second).pixels[pixel] += radiance;
+    vec3& group = groups_[isFirst ? 0 : 1].pixels[pixel];
+    group += radiance;
+    if ((paths / 2 + 1) % kGroup != 0) return;
+    squares_[pixel] += glm::dot(group, group);
+    group = vec3(0.0f);
+  }
+  // After all pixels got a path, of the halves in turn.
+  void endPath() { ++paths; }
+  // Whether variance() is known: both halves consist of whole groups, and these are enough.
+  bool knowsVariance() const { return paths >= 4 * kGroup && paths % (2 * kGroup) == 0; }
+  int groups() const { return paths / kGroup; }
+  // Of the mean of all paths of a pixel; the sum of the channels.
+  float variance(size_t pixel) const {
+    const auto groups = static_cast<float>(paths / kGroup);
+    const vec3 mean = (first.pixels[pixel] + second.pixels[pixel]) / static_cast<float>(paths);
+    const float square = squares_[pixel] / (groups * static_cast<float>(kGroup * kGroup));
+    return std::max(square - glm::dot(mean, mean), 0.0f) / (groups - 1.0f);
+  }
+
+  Image first, second;  // sums of each half
+  int paths = 0;
+
+ private:
+  std::vector<float> squares_;  // of sums of groups, by pixel
+  Image groups_[2];             // of the halves: groups that are not complete
+};
+
+}  // namespace lamplighter
