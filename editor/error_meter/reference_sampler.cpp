@@ -29,7 +29,7 @@ void ReferenceSampler::begin(const MeterSubject& subject) {
   const bool sameLevel = world_.rays() != nullptr && subject.level == subject_.level;
   const SceneChanges changes = sameLevel ? compare(scene_, *subject.scene) : SceneChanges::all();
   const RenderSceneChanges moved = world_.update(*subject.scene, changes);
-  if (!sameLevel || !moved.none()) lights_ = LightSet(world_.scene(), lights_);
+  if (!sameLevel || !moved.none()) lights_ = LightSet::forPaths(world_.scene(), lights_);
   scene_ = *subject.scene;
   subject_ = subject;
   subject_.view = world_.viewOf(subject.view);

@@ -12,7 +12,7 @@ namespace lamplighter {
 
 BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
                        const BakeLightOptions& options)
-    : scene_(scene), rays_(rays), options_(options), lights_(scene) {
+    : scene_(scene), rays_(rays), options_(options), lights_(LightSet::forPaths(scene)) {
   if (options.method == BakeMethod::settled) {
     // Suns are not divided into tiles, because rays need no shadow maps.
     vpls_ = LightPaths::generate(scene, rays, lights_, options.counts).vpls;

@@ -48,7 +48,7 @@ void PathRepair::begin(const FrameInputs& in, const Options& options,
     return;
   in.backend.renderGBuffer(in.view, vec2(0.0f));
   guides_ = RepairGuides(in.backend.hostGBuffer(), in.view, in.lightOnly);
-  lights_ = LightSet(in.scene);
+  lights_ = LightSet::forPaths(in.scene);
   seen_ = PathSums(in.view.width, in.view.height);
 }
 

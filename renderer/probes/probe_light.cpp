@@ -75,7 +75,7 @@ vec3 irradianceFrom(const ProbeSh& sh, const vec3& normal) {
 
 ProbeReference::ProbeReference(const RenderScene& scene, const RayCaster& rays,
                                const PathTracerOptions& paths, const LightSet& before)
-    : scene_(scene), rays_(rays), paths_(paths), lights_(scene, before) {}
+    : scene_(scene), rays_(rays), paths_(paths), lights_(LightSet::forPaths(scene, before)) {}
 
 void ProbeReference::addSamples(const vec3& place, uint32_t first, uint32_t count,
                                 ProbeSh& sum) const {

@@ -59,7 +59,7 @@ vec3 LightSamples::emissionSeen(const Hit& hit, const Surface& surface, const ve
   const vec3 d = surface.position - from;
   const float area = lights_.areaAt(emitter, hit.triangle, vec2(hit.u, hit.v));
   const float pdfLight =
-      lights_.surfaceProbability(emitter) / area * glm::dot(d, d) / std::abs(cosine);
+      lights_.surfaceProbability(from, emitter) / area * glm::dot(d, d) / std::abs(cosine);
   return surface.emission * misWeight(pdfDirection, pdfLight);
 }
 
@@ -78,7 +78,7 @@ vec3 LightSamples::direct(const LocalSurface& at, PathSampler& sampler) {
   const vec2 skyChoice = samplesSky ? sampler.next2() : vec2(0.0f);
   if (at.s.albedo == vec3(0.0f) && !at.gloss) return vec3(0.0f);
   float probability = 0.0f;
-  const int emitter = lights_.chooseSurface(choice, probability);
+  const int emitter = lights_.chooseSurface(at.s.position, choice, probability);
   vec3 radiance = fromPunctuals(at, punctualChoice), w;
   if (emitter != kNone &&
       !isLeftOut(at.leftOutBy, lights_.emitters()[static_cast<size_t>(emitter)].link))
@@ -113,7 +113,7 @@ vec3 LightSamples::fromSurface(const LocalSurface& at, int emitter, vec2 u, vec3
   if (reflected == vec3(0.0f) || cosThere <= 0.0f) return vec3(0.0f);
   if (!visible(at, p, w)) return vec3(0.0f);
   const float pdfAngle = p.pdfArea * d2 / cosThere;  // density per solid angle
-  const float pdfLight = pdfAngle * lights_.surfaceProbability(emitter);
+  const float pdfLight = pdfAngle * lights_.surfaceProbability(at.s.position, emitter);
   return p.radiance * reflected * (misWeight(pdfLight, at.pdf(w)) / pdfAngle);
 }
 

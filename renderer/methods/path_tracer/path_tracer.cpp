@@ -132,7 +132,7 @@ class Tracer {
         trace({position, 0.0f, out[0].towards}, sampler, options, {1, kUniformDensity, position}) /
         kUniformDensity;
     float probability = 0.0f;
-    const int emitter = lights_.chooseSurface(choice, probability);
+    const int emitter = lights_.chooseSurface(position, choice, probability);
     if (emitter != kNone)
       out[1].light = samples_.fromSurface(at, emitter, onEmitter, out[1].towards) / probability;
     if (!scene_.sky.isBlack() && !lights_.sky().isConstant())

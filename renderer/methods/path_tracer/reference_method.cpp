@@ -42,7 +42,7 @@ class ReferenceMethod final : public GiMethod {
     StageTimer timer(in, kPathTracerStages, stats);
     const PathTracerParameters parameters = pathTracerParameters().read(in.settings);
     const bool sameScene = in.changes.none() && sum_.width != 0;
-    if (!sameScene) lights_ = LightSet(in.scene, lights_);
+    if (!sameScene) lights_ = LightSet::forPaths(in.scene, lights_);
     PathTracerOptions options = parameters.options(in.lightOnly);
     options.part = in.part;
     const int wanted = parameters.samplesPerPixel;

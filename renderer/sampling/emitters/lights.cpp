@@ -151,7 +151,18 @@ Sky LightSet::unitSky() const {
   return skyReference_ > 0.0f ? referenceSky_.sky().withFactor(1.0f) : Sky();
 }
 
-int LightSet::chooseSurface(float u, float& probability) const {
+LightSet LightSet::forPaths(const RenderScene& scene, const LightSet& before) {
+  LightSet out(scene, before);
+  const auto isLit = [](const Emitter& e) {
+    return e.kind == EmitterKind::surface && luminance(e.flux) > 0.0f;
+  };
+  if (std::ranges::count_if(out.emitters_, isLit) > 1)
+    out.byPlace_ = std::make_shared<EmitterChoice>(scene, out.emitters_);
+  return out;
+}
+
+int LightSet::chooseSurface(const vec3& place, float u, float& probability) const {
+  if (byPlace_) return byPlace_->choose(place, u, probability);
   if (choice_.empty()) return kNone;
   float rest;
   const size_t i = choice_.sample(u, rest);
@@ -159,7 +170,8 @@ int LightSet::chooseSurface(float u, float& probability) const {
   return static_cast<int>(i);
 }
 
-float LightSet::surfaceProbability(int emitter) const {
+float LightSet::surfaceProbability(const vec3& place, int emitter) const {
+  if (byPlace_) return byPlace_->probability(place, emitter);
   return choice_.probability(static_cast<size_t>(emitter));
 }
 

@@ -1,10 +1,12 @@
 // All emitters of a scene in one list, for the path tracer and the VPL generator.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "renderer/base/alias_table.h"
 #include "renderer/sampling/emitters/emitter_cells.h"
+#include "renderer/sampling/emitters/emitter_choice.h"
 #include "renderer/sampling/emitters/sky_sampler.h"
 #include "renderer/scene/render_scene.h"
 
@@ -56,12 +58,15 @@ class LightSet {
   explicit LightSet(const RenderScene& scene) : LightSet(scene, LightSet()) {}
   // The same, faster: reuses what `before` computed for unchanged textures.
   LightSet(const RenderScene& scene, const LightSet& before);
+  // For paths: chooseSurface() prefers what is near the place.
+  static LightSet forPaths(const RenderScene& scene) { return forPaths(scene, LightSet()); }
+  static LightSet forPaths(const RenderScene& scene, const LightSet& before);
 
   const std::vector<Emitter>& emitters() const { return emitters_; }
-  // Selects an emitter that is a surface, in proportion to the luminance of its flux; kNone if
-  // there is none.
-  int chooseSurface(float u, float& probability) const;
-  float surfaceProbability(int emitter) const;
+  // Selects an emitter that is a surface for light that arrives at a place, in proportion to the
+  // luminance of its flux, or, forPaths(), as EmitterChoice does; kNone if there is none.
+  int chooseSurface(const vec3& place, float u, float& probability) const;
+  float surfaceProbability(const vec3& place, int emitter) const;
   // The emitter of this object's surface, or kNone.
   int emitterOfObject(uint32_t object) const;
   // u.x selects the triangle; the rest of u.x and u.y select the point on it.
@@ -85,6 +90,7 @@ class LightSet {
   std::vector<Emitter> emitters_;
   std::vector<int> emitterOfObject_;
   AliasTable choice_;
+  std::shared_ptr<const EmitterChoice> byPlace_;  // forPaths(), with several emitters
   SkySampler sky_, referenceSky_;
   float skyReference_ = 0.0f;
   vec3 centre_{0.0f};

@@ -170,7 +170,7 @@ TEST(LightSet, ASceneWithoutLightHasNoEmitters) {
   test::addMesh(scene, test::boxMesh(vec3(2.0f)));
   const LightsOf s(scene);
   float p;
-  EXPECT_EQ(s.lights.chooseSurface(0.5f, p), kNone);
+  EXPECT_EQ(s.lights.chooseSurface(vec3(0.0f), 0.5f, p), kNone);
 }
 
 }  // namespace
