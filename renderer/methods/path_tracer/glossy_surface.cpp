@@ -15,6 +15,23 @@ float visibleNormalPdf(float nv, float d, float a2) {
   return distribution / (2.0f * (nv + std::sqrt(nv * nv * (1.0f - a2) + a2)));
 }
 
+// brdf.h has no smaller cosine with the eye than kLeastCosine. An eye below that is lifted to it,
+// so that sampled directions and their densities are those of the same lobe: otherwise single paths
+// at the rims of glossy objects were 10⁵ times too bright.
+vec3 lifted(const vec3& eye) {
+  constexpr float kLeast = shared::kLeastCosine;
+  if (eye.z >= kLeast) return eye;
+  const float scale = std::sqrt((1.0f - kLeast * kLeast) / (eye.x * eye.x + eye.y * eye.y));
+  return {scale * eye.x, scale * eye.y, kLeast};
+}
+
+// The same as brdf.h computes it, rounding included: in narrow lobes and flat views that is large,
+// and the density must have it, too.
+float denominatorFromCosine(const vec3& light, const vec3& eye, float a2) {
+  const float vh2 = std::max(0.5f + 0.5f * glm::dot(light, eye), 1e-6f), sum = light.z + eye.z;
+  return std::min(sum * sum / (4.0f * vh2), 1.0f) * (a2 - 1.0f) + 1.0f;
+}
+
 // d = cos² θ (α² − 1) + 1 = cos² θ α² + sin² θ for the angle θ of the half vector.
 float denominatorFromSine(const vec3& light, const vec3& eye, float a2) {
   const vec3 sum = light + eye;
@@ -26,8 +43,8 @@ float denominatorFromSine(const vec3& light, const vec3& eye, float a2) {
 
 GlossySurface::GlossySurface(const vec3& baseColor, const Gloss& gloss, float leastRoughness,
                              const vec3& normal, const vec3& toEye, LobeArithmetic arithmetic)
-    : arithmetic_(arithmetic), frame_(normal), eye_(frame_.toLocal(toEye)) {
-  const float nv = std::max(eye_.z, shared::kLeastCosine);
+    : arithmetic_(arithmetic), frame_(normal), eye_(lifted(frame_.toLocal(toEye))) {
+  const float nv = eye_.z;
   lobe_ = shared::makeLobe(baseColor, gloss.metallic, gloss.roughness, leastRoughness, nv);
   alpha_ = std::sqrt(lobe_.shape.x);
   const float share = shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness, nv);
@@ -69,10 +86,9 @@ vec3 GlossySurface::sample(float choice, vec2 u) const {
 float GlossySurface::pdf(const vec3& w) const {
   const vec3 light = frame_.toLocal(w);
   if (light.z <= 0.0f) return 0.0f;
-  const float a2 = alpha_ * alpha_, nv = std::max(eye_.z, 1e-4f);
-  const vec3 half = glm::normalize(light + eye_);
+  const float a2 = alpha_ * alpha_, nv = eye_.z;
   const float d = arithmetic_ == LobeArithmetic::fromSine ? denominatorFromSine(light, eye_, a2)
-                                                          : half.z * half.z * (a2 - 1.0f) + 1.0f;
+                                                          : denominatorFromCosine(light, eye_, a2);
   const float lobe = visibleNormalPdf(nv, d, a2);
   return lobeProbability_ * lobe + (1.0f - lobeProbability_) * light.z / kPi;
 }
