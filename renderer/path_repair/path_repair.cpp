@@ -17,19 +17,18 @@ uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0, 
 
 // Of so many paths that end at known light one goes on, to find what that light lacks.
 constexpr int kPathsAWhole = 4;
-// Russian roulette of those begins at this bounce.
+// Russian roulette of all paths begins at this bounce.
 constexpr int kSureBounces = 2;
 
-// So many rows of a step of the filter take about as long as a row of paths.
+// So many rows of a step of the filter count as a row of paths. On average 60 to 90 take as long;
+// some steps are slower.
 constexpr int kFilterRows = 32;
 // The memory of the filter is some 300 bytes a pixel: larger pictures are not repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
 // Whether the picture after so many paths is filtered: always half as many more than the last.
 bool isShown(int paths, int last, int all) {
-  if (paths >= all) return true;
-  const int step = paths < 16 ? 2 : 2 * PathSums::kGroup;
-  return paths % step == 0 && 2 * paths >= 3 * last;
+  return paths % 2 == 0 && (paths >= all || 2 * paths >= 3 * last);
 }
 
 }  // namespace
@@ -39,9 +38,10 @@ bool PathRepair::isDone(const Options& options) const {
 }
 
 void PathRepair::begin(const FrameInputs& in, const Options& options,
-                       const std::shared_ptr<RadianceImage>& live) {
+                       const std::shared_ptr<RadianceImage>& live, bool endsAtSurfaces) {
   restart();
   live_ = live;
+  endsAtSurfaces_ = endsAtSurfaces;
   view_ = in.view;
   path_ = options.path;
   if (static_cast<size_t>(live->width()) * static_cast<size_t>(live->height()) > kMostPixels)
@@ -50,6 +50,7 @@ void PathRepair::begin(const FrameInputs& in, const Options& options,
   guides_ = RepairGuides(in.backend.hostGBuffer(), in.view, in.lightOnly);
   lights_ = LightSet::forPaths(in.scene);
   seen_ = PathSums(in.view.width, in.view.height);
+  if (endsAtSurfaces) missing_ = seen_;
 }
 
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
@@ -58,11 +59,7 @@ int PathRepair::goOn(const FrameInputs& in, const Options& options,
   const bool isOther = !in.changes.none() || live != live_ || in.view != view_ ||
                        options.path != path_ || paths_ > options.paths ||
                        (surfaces != nullptr) != endsAtSurfaces_;
-  if (isOther) {
-    begin(in, options, live);
-    endsAtSurfaces_ = surfaces != nullptr;
-    if (endsAtSurfaces_) missing_ = PathSums(in.view.width, in.view.height);
-  }
+  if (isOther) begin(in, options, live, surfaces != nullptr);
   int done = 0;
   while (done < most && !isDone(options))
     done += filter_ ? filter(most - done) : tracePaths(in, options, surfaces, most - done);
@@ -80,18 +77,18 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
   const auto sample = static_cast<uint32_t>(paths_ / 2);
   const bool isWhole = surfaces != nullptr && sample % kPathsAWhole == 0;
   const RayCaster& caster = in.services.rays();
+  const std::optional<KnownSurfaces> known =
+      surfaces != nullptr ? std::optional<KnownSurfaces>(*surfaces) : std::nullopt;
   std::atomic<uint64_t> rays = 0;
   tbb::parallel_for(row_, end, [&](int y) {
     uint64_t traced = 0;
     for (int x = 0; x < view.width; ++x) {
       const auto i = static_cast<size_t>(y * view.width + x);
-      if (surfaces == nullptr) {
-        seen_.add(isFirst, i,
-                  tracePath(in.scene, caster, lights_, view, x, y, sample, path, &traced));
-        continue;
-      }
-      const EndedPath p = traceEndedPath(in.scene, caster, lights_, view, x, y, sample, path,
-                                         KnownSurfaces(*surfaces), isWhole, &traced);
+      const EndedPath p =
+          known ? traceEndedPath(in.scene, caster, lights_, view, x, y, sample, path, *known,
+                                 isWhole, &traced)
+                : EndedPath{tracePath(in.scene, caster, lights_, view, x, y, sample, path, &traced),
+                            vec3(0.0f)};
       seen_.add(isFirst, i, p.radiance);
       if (isWhole) missing_.add(isFirst, i, p.missing);
     }

@@ -38,7 +38,7 @@ class PathRepair {
 
  private:
   void begin(const FrameInputs& in, const Options& options,
-             const std::shared_ptr<RadianceImage>& live);
+             const std::shared_ptr<RadianceImage>& live, bool endsAtSurfaces);
   int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
                  int most);
   int filter(int most);

@@ -1,6 +1,7 @@
 // Sums of paths by pixel, in two halves that share no random numbers, and how much they vary.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "renderer/image/image.h"
@@ -30,15 +31,18 @@ class PathSums {
   }
   // After all pixels got a path, of the halves in turn.
   void endPath() { ++paths; }
-  // Whether variance() is known: both halves consist of whole groups, and these are enough.
-  bool knowsVariance() const { return paths >= 4 * kGroup && paths % (2 * kGroup) == 0; }
-  int groups() const { return paths / kGroup; }
-  // Of the mean of all paths of a pixel; the sum of the channels.
+  // Complete ones, of both halves. To be asked when both have as many paths.
+  int groups() const { return paths / 2 / kGroup * 2; }
+  bool knowsVariance() const { return groups() >= 4; }
+  // Of the mean of all paths of a pixel; the sum of the channels. From complete groups.
   float variance(size_t pixel) const {
-    const auto groups = static_cast<float>(paths / kGroup);
-    const vec3 mean = (first.pixels[pixel] + second.pixels[pixel]) / static_cast<float>(paths);
-    const float square = squares_[pixel] / (groups * static_cast<float>(kGroup * kGroup));
-    return std::max(square - glm::dot(mean, mean), 0.0f) / (groups - 1.0f);
+    const auto n = static_cast<float>(groups()), size = static_cast<float>(kGroup);
+    const vec3 sum = first.pixels[pixel] + second.pixels[pixel] - groups_[0].pixels[pixel] -
+                     groups_[1].pixels[pixel];
+    const vec3 mean = sum / (n * size);
+    const float square = squares_[pixel] / (n * size * size);
+    const float ofGroup = std::max(square - glm::dot(mean, mean), 0.0f) * n / (n - 1.0f);
+    return ofGroup * size / static_cast<float>(paths);
   }
 
   Image first, second;  // sums of each half

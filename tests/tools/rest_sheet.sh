@@ -30,11 +30,12 @@ for file in assets/scenes/door_ajar.gltf \
       --seconds $seconds --exposure "$exposure"
     tiles+=("$work/$seconds.png")
   done
-  # Without the figures under the tile.
+  # Without the margin of the tile and the figures under it.
   for tile in "${tiles[@]}"; do oiiotool "$tile" --cut $size+6+6 -o "$tile"; done
   oiiotool "${tiles[@]}" "$work/reference.png" --mosaic:pad=2 4x1 -o "$work/$name.png"
   rows+=("$work/$name.png")
   echo "rest sheet: $name" >&2
 done
+[ ${#rows[@]} -gt 0 ] || { echo "rest sheet: no level has such a name, or ../shared/scenes is absent" >&2; exit 2; }
 oiiotool "${rows[@]}" --mosaic:pad=4 "1x${#rows[@]}" --attrib:type=int compression:quality 85 \
   -o "${OUT:-docs/images/rest_sheet.jpg}"

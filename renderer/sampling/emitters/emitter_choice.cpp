@@ -32,7 +32,6 @@ EmitterChoice::EmitterChoice(const RenderScene& scene, std::span<const Emitter> 
     emitters_.push_back(static_cast<int>(i));
     flux.push_back(f);
   }
-  if (emitters_.empty()) return;
   float allFlux = 0.0f;
   for (const float f : flux) allFlux += f;
   const vec3 size = glm::max(bounds_.max - bounds_.min, vec3(1e-3f));

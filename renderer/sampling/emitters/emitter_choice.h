@@ -16,11 +16,10 @@ struct Emitter;
 
 class EmitterChoice {
  public:
-  // Of those that are surfaces and have flux.
+  // Of those that are surfaces and have flux; there must be one.
   EmitterChoice(const RenderScene& scene, std::span<const Emitter> emitters);
 
-  bool isEmpty() const { return emitters_.empty(); }
-  // For light that arrives at a place: an index of the emitters, by a random number. Not if empty.
+  // For light that arrives at a place: an index of the emitters, by a random number.
   int choose(const vec3& place, float u, float& probability) const;
   float probability(const vec3& place, int emitter) const;
 

@@ -177,10 +177,12 @@ TEST_F(Residuals, PixelsWithoutNeighboursTakeTheirOwnPaths) {
 // Of two halves, whose groups of four are independent: a variance of groups is that of paths over
 // four.
 TEST(PathSumsTest, TheVarianceIsThatOfTheMean) {
-  constexpr int kPixels = 2000, kPaths = 64;
+  constexpr int kPixels = 2000, kPaths = 62;  // the last groups are not complete
   PathSums sums(kPixels, 1);
   for (int path = 0; path < kPaths; ++path) {
-    EXPECT_EQ(sums.knowsVariance(), path >= 16 && path % 8 == 0);
+    if (path % 2 == 0) {
+      EXPECT_EQ(sums.knowsVariance(), path >= 16);
+    }
     for (uint32_t i = 0; i < kPixels; ++i) {
       const float u = toUnitFloat(hash4(i, static_cast<uint32_t>(path), 1, 2));
       sums.add(path % 2 == 0, i, vec3(u, 0.0f, 2.0f * u));
