@@ -16,7 +16,8 @@ void FramePacer::renderFrame(Session& session) {
     const FrameTimeControl::Work work = control_.within(1e-3 * budget.frameTime);
     session.renderFrame(std::min(budget.updates, work.updates),
                         {.inBackground = true,
-                         .refineUpdates = std::min(budget.updates, work.refineUpdates),
+                         .refineUpdates = work.refineUpdates,
+                         .previewUpdates = work.previewUpdates,
                          .surfaceWork = work.surfaces});
   }
   control_.measured(session.output().stats);

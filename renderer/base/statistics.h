@@ -31,6 +31,7 @@ enum class StageWork {
   fixed,     // none of the following
   updates,   // GiStats::updates
   surfaces,  // GiStats::surfaceWork
+  preview,   // GiStats::previewUpdates
 };
 
 // A stage of a frame: work whose time is measured by itself. A method declares its stages as

@@ -1,12 +1,13 @@
 #include "renderer/methods/frame_time_control.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lamplighter {
 namespace {
 
 constexpr double kWeight = 0.5;  // of the last frame in the running mean
-constexpr double kMostGrowth = 2.0, kLeastGrowth = 0.5;
+constexpr double kLeastGrowth = 0.5;
 
 // This much work is done at any cost: a slow picture that converges is better than one that never
 // does.
@@ -19,6 +20,8 @@ constexpr double kFirstUpdates = 64.0;
 // The share of the limit that each kind of work gets at least. Without it, light on surfaces would
 // leave nothing to the direct light of a dragged lamp, which would lag behind.
 constexpr double kLeastShare = 0.25;
+// And what a preview of the repair gets. More would delay the picture that it repairs.
+constexpr double kPreviewShare = 0.7;
 
 void average(double& mean, double value) {
   mean = mean == 0.0 ? value : mean + kWeight * (value - mean);
@@ -39,24 +42,27 @@ double WorkRate::within(double seconds, double all, double least, double most, d
   wanted_ = all;
   allowed_ = first;
   if (seconds_ > 0.0) {
-    const double growth = std::clamp(seconds / seconds_, kLeastGrowth, kMostGrowth);
+    const double growth = std::clamp(seconds / seconds_, kLeastGrowth, mostGrowth_);
     allowed_ = std::clamp(growth * amount_, least, most);
+    if (isWhole_) allowed_ = std::floor(allowed_);
   }
   return allowed_;
 }
 
 void FrameTimeControl::measured(const GiStats& stats) {
-  double all = 0.0, ofUpdates = 0.0, ofSurfaces = 0.0;
+  double all = 0.0, ofUpdates = 0.0, ofSurfaces = 0.0, ofPreview = 0.0;
   for (const auto& [stage, time] : stats.stageSeconds) {
     all += time;
     if (stage.work == StageWork::updates) ofUpdates += time;
     if (stage.work == StageWork::surfaces) ofSurfaces += time;
+    if (stage.work == StageWork::preview) ofPreview += time;
   }
   // If no stage tells, all work counts as that of updates.
   if (ofUpdates == 0.0) ofUpdates = all - ofSurfaces;
   updates_.measured(stats.updates, ofUpdates, all);
   surfaces_.measured(static_cast<double>(stats.surfaceWork), ofSurfaces, all);
   refinement_.measured(stats.refineUpdates, all, all);
+  preview_.measured(stats.previewUpdates, ofPreview, all);
   if (stats.updates == 0 && stats.surfaceWork == 0.0f) return;
   average(ofUpdates_, ofUpdates);
   average(ofSurfaces_, ofSurfaces);
@@ -75,6 +81,8 @@ FrameTimeControl::Work FrameTimeControl::within(double seconds) {
                                           kMostSurfaceWork, kLeastSurfaceWork));
   work.refineUpdates = static_cast<int>(
       refinement_.within(seconds, seconds, kLeastUpdates, kMostUpdates, kLeastUpdates));
+  work.previewUpdates = static_cast<int>(preview_.within(
+      kPreviewShare * seconds, seconds, kLeastUpdates, kMostUpdates, kFirstUpdates));
   return work;
 }
 

@@ -55,6 +55,7 @@ struct GiStats {
   // Items that were brought up to date in this frame, at most the parameter `updates`; items that
   // wait for it; items by which the settled picture was refined, at most refineUpdates.
   int updates = 0, pending = 0, refineUpdates = 0;
+  int previewUpdates = 0;  // rows of paths that preview a repair, at most FrameBudget's
   // The share of the usual work of a frame on light on surfaces that this frame was limited to; 0:
   // it did none.
   float surfaceWork = 0.0f;
@@ -73,14 +74,17 @@ struct GiStats {
   std::optional<double> find(std::string_view name) const;
 };
 
+// lights: edges of the sky and of lamps. all: also those of surfaces in direct light.
+enum class SmoothEdges : uint8_t { none, lights, all };
+
 struct GiOutput {
   std::shared_ptr<RadianceImage> radiance;
   bool includesDirect = true;
   bool settled = false;  // rendering the same input again would at most refine the picture
   bool refined = true;   // the picture is refined as far as requested, or refinement is off
-  // Direct light and emission are antialiased already, even if the picture has not settled. To
-  // smooth their edges again would blur the outlines of bright lamps.
-  bool hasSmoothEdges = false;
+  // What is antialiased already, even if the picture has not settled. To smooth the same edges
+  // again would blur the outlines of bright lamps.
+  SmoothEdges smoothEdges = SmoothEdges::none;
   // If the picture has settled: the light that the method keeps on surfaces, if it does. Valid
   // until the next call of the method.
   std::shared_ptr<const MirroredLight> surfaces;

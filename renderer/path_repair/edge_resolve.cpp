@@ -140,9 +140,13 @@ void EdgeResolve::findEdges(const FrameInputs& in) {
         if (known != before.end() && known->x == x) row.push_back(*known);
         continue;
       }
-      forEachAround(g, x, y,
-                    [&](int u, int v, size_t) { isEdge = isEdge || differ(g, x, y, u, v); });
-      if (isEdge) row.push_back({x, {}});
+      Edge edge{.x = x};
+      forEachAround(g, x, y, [&](int u, int v, size_t) {
+        isEdge = isEdge || differ(g, x, y, u, v);
+        const bool isLight = !g.isHit(u, v) || g.at(u, v).emission != vec3(0.0f);
+        edge.isAtLight = edge.isAtLight || isLight;
+      });
+      if (isEdge) row.push_back(edge);
     }
   });
 }
@@ -187,9 +191,9 @@ void EdgeResolve::traceRow(const FrameInputs& in, const GBufferView& g, int y) {
   }
 }
 
-std::shared_ptr<RadianceImage> EdgeResolve::resolved(
-    const std::shared_ptr<RadianceImage>& picture) {
-  if (picture == from_ && smoothRows_ == next_) return result_;
+std::shared_ptr<RadianceImage> EdgeResolve::resolved(const std::shared_ptr<RadianceImage>& picture,
+                                                     bool withLights) {
+  if (picture == from_ && smoothRows_ == next_ && withLights == withLights_) return result_;
   const Image& from = picture->pixels();
   const auto result = pool_.take(from.width, from.height);
   Image& to = result->image;
@@ -198,6 +202,7 @@ std::shared_ptr<RadianceImage> EdgeResolve::resolved(
     std::copy_n(&from.pixels[row], from.width, &to.pixels[row]);
     if (static_cast<size_t>(y) >= next_) return;
     for (const Edge& edge : rows_[static_cast<size_t>(y)]) {
+      if (edge.isAtLight && !withLights) continue;
       vec3 sum(0.0f);
       for (size_t i = 0; i < edge.samples.size(); ++i)
         if (edge.samples[i] != 0)
@@ -209,6 +214,7 @@ std::shared_ptr<RadianceImage> EdgeResolve::resolved(
   result_ = result;
   from_ = picture;
   smoothRows_ = next_;
+  withLights_ = withLights;
   return result;
 }
 

@@ -29,8 +29,10 @@ class EdgeResolve {
   uint64_t findMore(const FrameInputs& in);
   bool isDone() const { return !rows_.empty() && next_ == rows_.size(); }
 
-  // `picture`, in main memory, with smooth edges as far as they were found.
-  std::shared_ptr<RadianceImage> resolved(const std::shared_ptr<RadianceImage>& picture);
+  // `picture`, in main memory, with smooth edges as far as they were found. `withLights`: also
+  // where the sky or a lamp is seen beside.
+  std::shared_ptr<RadianceImage> resolved(const std::shared_ptr<RadianceImage>& picture,
+                                          bool withLights);
 
  private:
   struct Edge {
@@ -39,6 +41,7 @@ class EdgeResolve {
     // itself.
     std::array<uint8_t, 9> samples{};
     bool isTraced = false;
+    bool isAtLight = false;  // the sky or a lamp is seen in one of these pixels
   };
   void findEdges(const FrameInputs& in);
   struct Changes {
@@ -53,6 +56,7 @@ class EdgeResolve {
   // The last result, what it was made of, and how many rows of it are smooth.
   std::shared_ptr<RadianceImage> result_, from_;
   size_t smoothRows_ = 0;
+  bool withLights_ = true;
   ImagePool pool_;
 };
 

@@ -15,6 +15,8 @@ namespace {
 constexpr uint32_t kRepairSet = 0x4e9a1;
 uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0, kRepairSet); }
 
+// The first paths of a pixel end nowhere, so that they can be traced before there is known light.
+constexpr int kWholePaths = 24;
 // Of so many paths that end at known light one goes on, to find what that light lacks.
 constexpr int kPathsAWhole = 4;
 // Russian roulette of all paths begins at this bounce.
@@ -22,7 +24,7 @@ constexpr int kSureBounces = 2;
 
 // So many rows of a step of the filter count as a row of paths. On average 60 to 90 take as long;
 // some steps are slower.
-constexpr int kFilterRows = 32;
+constexpr int kFilterRows = 48;
 // The memory of the filter is some 300 bytes a pixel: larger pictures are not repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
@@ -34,36 +36,54 @@ bool isShown(int paths, int last, int all) {
 }  // namespace
 
 bool PathRepair::isDone(const Options& options) const {
-  return seen_.first.empty() || (paths_ >= options.paths && !filter_);
+  const int most = isPreview_ ? std::min(options.paths, kWholePaths) : options.paths;
+  return hasNoPixels() || (paths() >= most && !filter_);
 }
 
-void PathRepair::begin(const FrameInputs& in, const Options& options,
-                       const std::shared_ptr<RadianceImage>& live, bool endsAtSurfaces) {
+void PathRepair::begin(const FrameInputs& in, const Options& options) {
   restart();
-  live_ = live;
-  endsAtSurfaces_ = endsAtSurfaces;
   view_ = in.view;
   path_ = options.path;
-  if (static_cast<size_t>(live->width()) * static_cast<size_t>(live->height()) > kMostPixels)
-    return;
+  const auto pixels = static_cast<size_t>(in.view.width) * static_cast<size_t>(in.view.height);
+  if (pixels > kMostPixels) return;
   in.backend.renderGBuffer(in.view, vec2(0.0f));
   guides_ = RepairGuides(in.backend.hostGBuffer(), in.view, in.lightOnly);
   lights_ = LightSet::forPaths(in.scene);
-  seen_ = PathSums(in.view.width, in.view.height);
-  if (endsAtSurfaces) missing_ = seen_;
+  whole_ = PathSums(in.view.width, in.view.height);
 }
 
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
                      const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces,
                      int most) {
-  const bool isOther = !in.changes.none() || live != live_ || in.view != view_ ||
-                       options.path != path_ || paths_ > options.paths ||
-                       (surfaces != nullptr) != endsAtSurfaces_;
-  if (isOther) begin(in, options, live, surfaces != nullptr);
+  const bool isSame = in.changes.none() && live_ && in.view == view_ && options.path == path_ &&
+                      paths() <= options.paths;
+  if (!isSame) begin(in, options);
+  const bool endsAtSurfaces = surfaces != nullptr;
+  if (live != live_ || options.isPreview != isPreview_ || endsAtSurfaces != endsAtSurfaces_)
+    takePicture(live, options.isPreview, endsAtSurfaces);
   int done = 0;
   while (done < most && !isDone(options))
     done += filter_ ? filter(most - done) : tracePaths(in, options, surfaces, most - done);
   return done;
+}
+
+// A preview that is being computed is finished first. A settled picture is repaired at once, by the
+// paths that do not depend on it.
+void PathRepair::takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview,
+                             bool endsAtSurfaces) {
+  const bool isOther = isPreview != isPreview_ || endsAtSurfaces != endsAtSurfaces_;
+  if (isPreview && !isOther && filter_) return;
+  live_ = live;
+  isPreview_ = isPreview;
+  endsAtSurfaces_ = endsAtSurfaces;
+  if (ended_.paths > 0 || (endsAtSurfaces && whole_.paths >= kWholePaths)) row_ = 0;
+  ended_ = missing_ = {};
+  dropFilter();
+  if (hasNoPixels()) return;
+  if (endsAtSurfaces) ended_ = missing_ = PathSums(view_.width, view_.height);
+  if (isPreview && whole_.paths < kWholePaths) return;
+  shown_ = 0;
+  if (row_ == 0 && whole_.paths > 0 && whole_.paths % 2 == 0) beginFilter();
 }
 
 int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
@@ -71,26 +91,29 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
   const View& view = in.view;
   const int end = std::min(row_ + most, view.height);
   PathTracerOptions path = options.path;
-  const bool isFirst = paths_ % 2 == 0;
+  const bool isFirst = paths() % 2 == 0;
   path.seed = seedOfHalf(path.seed, isFirst ? 0 : 1);
   path.sureBounces = kSureBounces;
-  const auto sample = static_cast<uint32_t>(paths_ / 2);
-  const bool isWhole = surfaces != nullptr && sample % kPathsAWhole == 0;
+  const auto sample = static_cast<uint32_t>(paths() / 2);
+  const bool ends = surfaces != nullptr && whole_.paths >= kWholePaths;
+  const bool goesOn = ends && sample % kPathsAWhole == 0;
   const RayCaster& caster = in.services.rays();
-  const std::optional<KnownSurfaces> known =
-      surfaces != nullptr ? std::optional<KnownSurfaces>(*surfaces) : std::nullopt;
+  std::optional<KnownSurfaces> known;
+  if (ends) known.emplace(*surfaces);
   std::atomic<uint64_t> rays = 0;
   tbb::parallel_for(row_, end, [&](int y) {
     uint64_t traced = 0;
     for (int x = 0; x < view.width; ++x) {
       const auto i = static_cast<size_t>(y * view.width + x);
-      const EndedPath p =
-          known ? traceEndedPath(in.scene, caster, lights_, view, x, y, sample, path, *known,
-                                 isWhole, &traced)
-                : EndedPath{tracePath(in.scene, caster, lights_, view, x, y, sample, path, &traced),
-                            vec3(0.0f)};
-      seen_.add(isFirst, i, p.radiance);
-      if (isWhole) missing_.add(isFirst, i, p.missing);
+      if (!known) {
+        whole_.add(isFirst, i,
+                   tracePath(in.scene, caster, lights_, view, x, y, sample, path, &traced));
+        continue;
+      }
+      const EndedPath p = traceEndedPath(in.scene, caster, lights_, view, x, y, sample, path,
+                                         *known, goesOn, &traced);
+      ended_.add(isFirst, i, p.radiance);
+      if (goesOn) missing_.add(isFirst, i, p.missing);
     }
     rays += traced;
   });
@@ -98,12 +121,32 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
   const int rows = end - std::exchange(row_, end);
   if (row_ < view.height) return rows;
   row_ = 0;
-  ++paths_;
-  seen_.endPath();
-  if (isWhole) missing_.endPath();
-  if (isShown(paths_, shown_, options.paths))
-    filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), seen_);
+  (ends ? ended_ : whole_).endPath();
+  if (goesOn) missing_.endPath();
+  if (isShown(paths(), shown_, options.paths)) beginFilter();
   return rows;
+}
+
+// What known light lacks is estimated first, so that it can be taken from whole paths: then these
+// are an estimate of the same as those that end.
+void PathRepair::beginFilter() {
+  if (ended_.paths > 0 && !lacking_) {
+    filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), missing_,
+                                               ResidualFilter::Estimate::residual);
+    return;
+  }
+  if (lacking_) {
+    all_ = whole_;
+    all_.subtract(*lacking_);
+    all_.add(ended_);
+  }
+  filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), lacking_ ? all_ : whole_);
+}
+
+void PathRepair::dropFilter() {
+  filter_.reset();
+  lacking_.reset();
+  all_ = {};
 }
 
 // Returns the work in rows of paths.
@@ -112,16 +155,14 @@ int PathRepair::filter(int most) {
   const int work = (rows + kFilterRows - 1) / kFilterRows;
   if (!filter_->isDone()) return work;
   Image residual = filter_->takeResidual();
-  filter_.reset();
-  if (endsAtSurfaces_ && !residual_) {
-    residual_ = std::move(residual);
-    filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), missing_,
-                                               ResidualFilter::Estimate::residual);
+  if (ended_.paths > 0 && !lacking_) {
+    lacking_ = std::move(residual);
+    beginFilter();
     return work;
   }
-  if (residual_)
-    for (size_t i = 0; i < residual.pixels.size(); ++i) residual.pixels[i] += residual_->pixels[i];
-  residual_.reset();
+  if (lacking_)
+    for (size_t i = 0; i < residual.pixels.size(); ++i) residual.pixels[i] += lacking_->pixels[i];
+  dropFilter();
   show(residual);
   return work;
 }
@@ -131,7 +172,7 @@ void PathRepair::show(const Image& residual) {
   for (size_t i = 0; i < out.pixels.size(); ++i)
     out.pixels[i] = glm::max(out.pixels[i] + residual.pixels[i], vec3(0.0f));
   repaired_ = std::make_shared<HostImage>(std::move(out));
-  shown_ = paths_;
+  shown_ = paths();
 }
 
 }  // namespace lamplighter

@@ -1,5 +1,5 @@
-// Repairs a settled picture by paths of the reference: it shows the picture plus what the paths
-// find missing, as far as their noise allows to tell. It converges to the reference.
+// Repairs a picture by paths of the reference: it shows the picture plus what the paths find
+// missing, as far as their noise allows to tell. It converges to the reference.
 #pragma once
 
 #include <memory>
@@ -18,46 +18,52 @@ class PathRepair {
   struct Options {
     int paths = 0;  // for each pixel, an even number
     PathTracerOptions path;
+    // The picture has not settled. It may be another in each call. Few paths are traced.
+    bool isPreview = false;
   };
 
   void restart() { *this = PathRepair(); }
   // Does work that takes as long as at most `most` rows of paths, and returns it. `live`: the
-  // settled picture. `surfaces`: light on surfaces at which paths may end, of the same scene; null:
-  // none. Starts anew if the scene, the view, the picture or the kind of paths is
-  // another than in the last call, or if there are more paths than wanted; then draws the G-buffer
-  // of the view, without a shift.
+  // picture. `surfaces`: light on surfaces at which paths may end, of the same scene; null: none.
+  // Starts anew if the scene, the view or the kind of paths is another than in the last call, or if
+  // there are more paths than wanted; then draws the G-buffer of the view, without a shift. If only
+  // the picture is another, its light on surfaces counts as another, too: other paths are kept.
   int goOn(const FrameInputs& in, const Options& options,
            const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces, int most);
 
   // After goOn() with these options: whether image() has all paths.
   bool isDone(const Options& options) const;
-  int paths() const { return paths_; }  // of each pixel
+  int paths() const { return whole_.paths + ended_.paths; }  // of each pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }
-  // Null until there is one. Its bits depend on the number of paths alone.
+  // Null until there is one. If it is not of a preview, its bits depend on the number of paths
+  // alone.
   const std::shared_ptr<RadianceImage>& image() const { return repaired_; }
 
  private:
-  void begin(const FrameInputs& in, const Options& options,
-             const std::shared_ptr<RadianceImage>& live, bool endsAtSurfaces);
+  void begin(const FrameInputs& in, const Options& options);
+  void takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview, bool endsAtSurfaces);
   int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
                  int most);
+  void beginFilter();
+  void dropFilter();
   int filter(int most);
   void show(const Image& residual);
+  bool hasNoPixels() const { return whole_.first.empty(); }
 
   std::shared_ptr<RadianceImage> live_;  // null: not begun
+  bool isPreview_ = false, endsAtSurfaces_ = false;
   View view_;
   PathTracerOptions path_;
   RepairGuides guides_;
   LightSet lights_;
-  // What paths see that end at known light, and what that light lacks: by fewer paths, because it
-  // is the same for many pixels.
-  PathSums seen_, missing_;
-  bool endsAtSurfaces_ = false;
-  int paths_ = 0;                           // complete in each pixel
+  // What paths see that end nowhere, and that end at known light, and what that light lacks: by
+  // fewer paths, because it is the same for many pixels.
+  PathSums whole_, ended_, missing_;
   int row_ = 0;                             // from which on the next paths are missing
+  std::unique_ptr<ResidualFilter> filter_;  // of missing_, then of all_; or of whole_
+  std::optional<Image> lacking_;            // what known light lacks, while all_ is filtered
+  PathSums all_;                            // of whole_, without lacking_, and of ended_
   int shown_ = 0;                           // paths of repaired_
-  std::unique_ptr<ResidualFilter> filter_;  // of seen_, then of missing_
-  std::optional<Image> residual_;           // of seen_, while missing_ is filtered
   uint64_t rays_ = 0;
   std::shared_ptr<RadianceImage> repaired_;
 };

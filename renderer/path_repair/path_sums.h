@@ -31,6 +31,27 @@ class PathSums {
   }
   // After all pixels got a path, of the halves in turn.
   void endPath() { ++paths; }
+  // Takes something from each path, by pixel. All groups must be complete.
+  void subtract(const Image& taken) {
+    const auto halfPaths = static_cast<float>(paths / 2);
+    for (size_t i = 0; i < squares_.size(); ++i) {
+      const vec3 t = taken.pixels[i], sum = first.pixels[i] + second.pixels[i];
+      const float square = static_cast<float>(paths) * glm::dot(t, t) - 2.0f * glm::dot(t, sum);
+      squares_[i] += static_cast<float>(kGroup) * square;
+      first.pixels[i] -= halfPaths * t;
+      second.pixels[i] -= halfPaths * t;
+    }
+  }
+  // The paths of another. All groups of this must be complete.
+  void add(const PathSums& other) {
+    for (size_t i = 0; i < squares_.size(); ++i) {
+      first.pixels[i] += other.first.pixels[i];
+      second.pixels[i] += other.second.pixels[i];
+      squares_[i] += other.squares_[i];
+      for (int half = 0; half < 2; ++half) groups_[half].pixels[i] = other.groups_[half].pixels[i];
+    }
+    paths += other.paths;
+  }
   // Complete ones, of both halves. To be asked when both have as many paths.
   int groups() const { return paths / 2 / kGroup * 2; }
   bool knowsVariance() const { return groups() >= 4; }

@@ -11,8 +11,9 @@ namespace lamplighter {
 namespace {
 
 constexpr StageSpec kRepairStage{"repair", "Repair",
-                                 "Tracing paths of the reference to repair a settled picture, and "
-                                 "rays for smooth edges before."};
+                                 "Tracing paths of the reference to repair a picture at rest, and "
+                                 "rays for smooth edges before.",
+                                 StageWork::preview};
 
 struct RepairStats {
   int paths = 0, wanted = 0;
@@ -53,6 +54,9 @@ PathTracerOptions pathsOf(const FrameInputs& in) {
           read.leastRoughness};
 }
 
+// Rows of paths in a frame that take little time.
+constexpr int kSlowRows = 16;
+
 class RepairedMethod final : public GiMethod {
  public:
   explicit RepairedMethod(std::unique_ptr<GiMethod> method) : method_(std::move(method)) {}
@@ -65,11 +69,14 @@ class RepairedMethod final : public GiMethod {
     GiOutput out = renderMethod(in, options.paths > 0);
     const double start = in.stopwatch ? in.stopwatch() : 0.0;
     RepairStats stats;
-    if (options.paths == 0 || !out.settled)
-      repair_.restart();
-    else
-      repair(in, options, out, stats);
     resolveEdges(in, options.paths > 0, out, stats);
+    if (options.paths > 0 && out.settled)
+      repair(in, options, out, stats);
+    else if (options.paths > 0 && in.changes.none() && in.services.budget().previewUpdates > 0 &&
+             out.radiance->isInMainMemory())
+      preview(in, options, out, stats);
+    else
+      repair_.restart();
     if (in.stopwatch) out.stats.stageSeconds.push_back({kRepairStage, in.stopwatch() - start});
     const std::vector<Statistic> declared = repairStatistics().of(stats);
     out.stats.declared.insert(out.stats.declared.end(), declared.begin(), declared.end());
@@ -99,7 +106,19 @@ class RepairedMethod final : public GiMethod {
                                            in.services.budget().refineUpdates);
     out.refined = repair_.isDone(options);
     if (repair_.image()) out.radiance = repair_.image();
-    stats = {repair_.paths(), options.paths, repair_.takeRays()};
+    stats = {repair_.paths(), options.paths, stats.rays + repair_.takeRays()};
+  }
+
+  // The first image comes soon. When all paths are traced, it follows the picture slowly.
+  void preview(const FrameInputs& in, PathRepair::Options options, GiOutput& out,
+               RepairStats& stats) {
+    options.isPreview = true;
+    int rows = in.services.budget().previewUpdates;
+    if (!repair_.image()) rows *= 2;
+    if (repair_.isDone(options)) rows = std::min(rows, kSlowRows);
+    out.stats.previewUpdates = repair_.goOn(in, options, out.radiance, nullptr, rows);
+    if (repair_.image()) out.radiance = repair_.image();
+    stats = {repair_.paths(), options.paths, stats.rays + repair_.takeRays()};
   }
 
   // Smooth edges of a picture that has not settled, while the view does not change; of a new scene
@@ -108,13 +127,13 @@ class RepairedMethod final : public GiMethod {
     const bool isSame = in.view == view_ && !in.changes.rebuilt && !in.changes.objects &&
                         in.changes.switchedObjects.empty();
     const bool hasTime = isSame || in.changes.rebuilt;
-    const bool isShown =
-        isWanted && !out.settled && !out.hasSmoothEdges && out.radiance->isInMainMemory();
+    const bool isShown = isWanted && !out.settled && out.smoothEdges != SmoothEdges::all &&
+                         out.radiance->isInMainMemory();
     view_ = in.view;
     if (!isSame || !isWanted || (!isShown && in.changes.surfaces())) edges_.restart();
     if (!hasTime || !isShown) return;
     stats.rays += edges_.findMore(in);
-    out.radiance = edges_.resolved(out.radiance);
+    out.radiance = edges_.resolved(out.radiance, out.smoothEdges == SmoothEdges::none);
   }
 
   std::unique_ptr<GiMethod> method_;
@@ -132,10 +151,10 @@ const ParameterTable<RepairParameters>& repairParameters() {
       "Repair with",
       "paths",
       "Paths of the reference for each pixel that repair a picture at rest in the editor's window: "
-      "what they find missing is added, as far as their noise allows to tell. Before it settles, "
-      "edges are smoothed on the cpu backend. 0: both are off; the picture "
-      "is refined with light samples instead. Recordings and replays do not repair; render does "
-      "only if this is set.",
+      "what they find missing is added, as far as their noise allows to tell. On the cpu backend "
+      "the first paths are traced, and edges are smoothed, before the picture has settled. 0: all "
+      "this is off; the picture is refined with light samples instead. Recordings and replays do "
+      "not repair; render does only if this is set.",
       {0, 1 << 16, kLogarithmic},
       ParameterGroup::picture};
   return table;

@@ -23,17 +23,21 @@ struct Doubt {
 };
 constexpr Doubt kFineDoubt{2.0f, 4.0f}, kCoarseDoubt{0.75f, 2.0f}, kResidualDoubt{1.0f, 4.0f};
 constexpr int kFineBands = 3;
+// With few paths, more pixels of the usual noise: paths that find nothing show no noise.
+constexpr float kUsualPaths = 64.0f;
 // A band is shown from the first number of paths behind a pixel on, and fully from three times as
 // many on: before, two bright paths may meet by chance.
 constexpr float kLeastPaths = 16.0f;
+// Pixels at borders that are far darker than the mean of the picture count less for the weight of
+// all.
+constexpr double kDark = 0.01;
+// All this is for pictures that are nearly right. Where the halves agree in a coarse band by this
+// share (Evidence), the picture is wrong: then this part of the variances is enough, no usual noise
+// is added, and fewer paths do. Not so in fine bands, whose noise shows as grain.
+constexpr float kWrong = 0.1f, kWrongVariances = 0.3f, kWrongPaths = 4.0f;
 // Neighbours in a coarse band share paths: their mean has so much more variance than that of
 // independent ones.
 constexpr float kCorrelation = 1.78f;
-// Pixels that show no surface, or a border of a lamp, take the mean of their paths, beside the live
-// picture as so many paths: the shifted pictures that antialias it.
-constexpr float kLivePaths = 16.0f;
-// With few paths, more pixels of the usual noise: paths that find nothing show no noise.
-constexpr float kUsualPaths = 64.0f;
 // What is left of a pixel after all bands must exceed so many of its variances, and more where
 // these are known from few groups of paths.
 constexpr float kSurePixel = 9.0f, kFewGroups = 10.0f;
@@ -41,16 +45,16 @@ constexpr float kSurePixel = 9.0f, kFewGroups = 10.0f;
 // that show the same surface: leaves, legs of chairs, edges. From twice that on they take all of
 // their own paths.
 constexpr float kAlone = 0.1f;
+// The windows of these pixels have about so many paths [pixels].
+constexpr float kWindowSamples = 600.0f;
+constexpr int kLeastRadius = 2, kMostRadius = 8;
+// With fewer paths than the first, these pixels are rather scaled as those around them, and with
+// fewer than the second they rather stay as they are.
+constexpr float kWindowPaths = 8.0f, kOwnPaths = 16.0f;
 
 float squareOf(const vec3& v) { return glm::dot(v, v); }
 
 }  // namespace
-
-struct ResidualFilter::Halves {
-  vec3 first{0.0f}, second{0.0f};
-  vec3 mean() const { return 0.5f * (first + second); }
-  vec3 half() const { return 0.5f * (first - second); }
-};
 
 // Residuals times albedo, and its square: their quotient is the residual of a white surface, by
 // least squares.
@@ -148,11 +152,15 @@ ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, co
   noise_.resize(pixels);
   nextNoise_.resize(pixels);
   steps_.push_back([this](Rows rows) { begin(rows); });
+  steps_.push_back([this](Rows rows) { weighBorders(rows); });
+  steps_.push_back([this](Rows rows) { addBorders(rows); });
   for (int round = 0; round < kTamings; ++round) planTaming();
   steps_.push_back([this](Rows rows) { beginBands(rows); });
   for (int band = 0; band <= kBands; ++band) planBand(band);
   // What known light lacks has no edges.
-  if (estimate_ == Estimate::truth && paths_.knowsVariance()) planPixels();
+  if (estimate_ == Estimate::residual) return;
+  steps_.push_back([this](Rows rows) { addWindow(rows); });
+  if (paths_.knowsVariance()) planPixels();
 }
 
 ResidualFilter::~ResidualFilter() = default;
@@ -226,22 +234,47 @@ vec3 ResidualFilter::mean(size_t pixel) const {
          static_cast<float>(paths_.paths);
 }
 
-// Residuals of both halves; of pixels that show no surface all that is shown of it.
+// Calls f(index) for all pixels in order: sums do not depend on the number of threads.
+template <typename F>
+void ResidualFilter::forRows(Rows rows, const F& f) const {
+  const auto width = static_cast<size_t>(guides_.width);
+  for (size_t i = static_cast<size_t>(rows.first) * width;
+       i < static_cast<size_t>(rows.last) * width; ++i)
+    f(i);
+}
+
+// Residuals of both halves.
 void ResidualFilter::begin(Rows rows) {
-  const auto paths = static_cast<float>(paths_.paths);
-  const float scale = 2.0f / paths;
-  for (int y = rows.first; y < rows.last; ++y)
-    for (int x = 0; x < guides_.width; ++x) {
-      const auto i = static_cast<size_t>(y * guides_.width + x);
-      if (guides_.normal[i] == vec3(0.0f)) {
-        residual_.pixels[i] = paths / (paths + kLivePaths) * (mean(i) - known(i));
-        continue;
-      }
-      tame_[i] = {scale * paths_.first.pixels[i] - known(i),
-                  scale * paths_.second.pixels[i] - known(i)};
-      allNoise_ += static_cast<double>(squareOf(tame_[i].half()));
-      allLight_ += static_cast<double>(squareOf(live_.pixels[i]));
-    }
+  const float scale = 2.0f / static_cast<float>(paths_.paths);
+  forRows(rows, [&](size_t i) {
+    tame_[i] = {scale * paths_.first.pixels[i] - known(i),
+                scale * paths_.second.pixels[i] - known(i)};
+    light_ += static_cast<double>(squareOf(live_.pixels[i]));
+    if (guides_.normal[i] == vec3(0.0f)) return;
+    surfaceNoise_ += static_cast<double>(squareOf(tame_[i].half()));
+    surfaceLight_ += static_cast<double>(squareOf(live_.pixels[i]));
+  });
+}
+
+// A pixel counts by the inverse of its light, so that the brightest do not decide alone.
+void ResidualFilter::weighBorders(Rows rows) {
+  const double dark = kDark * light_ / static_cast<double>(live_.pixels.size());
+  forRows(rows, [&](size_t i) {
+    const double light = static_cast<double>(squareOf(live_.pixels[i])) + dark;
+    if (guides_.normal[i] != vec3(0.0f) || !(light > 0.0)) return;
+    const Halves& h = tame_[i];
+    borderCommon_ += static_cast<double>(glm::dot(h.first, h.second)) / light;
+    borderPower_ += static_cast<double>(squareOf(h.mean())) / light;
+  });
+}
+
+void ResidualFilter::addBorders(Rows rows) {
+  const float share = borderPower_ > 0.0
+                          ? static_cast<float>(std::clamp(borderCommon_ / borderPower_, 0.0, 1.0))
+                          : 0.0f;
+  forRows(rows, [&](size_t i) {
+    if (guides_.normal[i] == vec3(0.0f)) residual_.pixels[i] = share * (mean(i) - known(i));
+  });
 }
 
 void ResidualFilter::takeBounds(Rows rows) {
@@ -286,7 +319,7 @@ void ResidualFilter::beginBands(Rows rows) {
                 1.0f};
   });
   if (rows.last < guides_.height) return;
-  smooth_ = std::move(tame_);
+  smooth_ = tame_;
   bounds_ = {};
   nextBounds_ = {};
 }
@@ -302,6 +335,7 @@ void ResidualFilter::takeDetail(Rows rows) {
     powers_[i] = {glm::dot(detail.first, detail.second), squareOf(detail.mean()),
                   squareOf(detail.half()), 1.0f};
   });
+  weighBand(rows);
 }
 
 // What is left: the mean over the whole surroundings, with all that was bounded.
@@ -313,25 +347,59 @@ void ResidualFilter::takeBase(Rows rows) {
     powers_[i] = {glm::dot(detail_[i].first, detail_[i].second), squareOf(detail_[i].mean()),
                   squareOf(detail_[i].half()), 1.0f};
   });
+  weighBand(rows);
+}
+
+void ResidualFilter::weighBand(Rows rows) {
+  if (rows.first == 0) band_ = {};
+  forRows(rows, [&](size_t i) {
+    if (guides_.normal[i] != vec3(0.0f)) band_.add(detail_[i], variance_[i]);
+  });
 }
 
 void ResidualFilter::addBand(int band, Rows rows) {
   const auto paths = static_cast<float>(paths_.paths);
-  const Doubt doubt = estimate_ == Estimate::residual ? kResidualDoubt
-                      : band < kFineBands             ? kFineDoubt
-                                                      : kCoarseDoubt;
-  const float usualPixels = doubt.usualPixels + kUsualPaths / paths;
+  const Doubt& doubt = estimate_ == Estimate::residual ? kResidualDoubt
+                       : band < kFineBands             ? kFineDoubt
+                                                       : kCoarseDoubt;
+  const float wrong = band < kFineBands ? 0.0f : std::min(band_.share() / kWrong, 1.0f);
+  const float usualPixels = (1.0f - wrong) * (doubt.usualPixels + kUsualPaths / paths);
+  const float variances = doubt.variances * glm::mix(1.0f, kWrongVariances, wrong);
+  const float leastPaths = glm::mix(kLeastPaths, kWrongPaths, wrong);
+  if (band == kFineBands) windowVariances_ = variances;
   // Of a path, by the square of the picture.
-  const auto usualNoise = allLight_ > 0.0 ? static_cast<float>(allNoise_ / allLight_) : 0.0f;
+  const auto usualNoise =
+      surfaceLight_ > 0.0 ? static_cast<float>(surfaceNoise_ / surfaceLight_) : 0.0f;
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const float usual = usualNoise * squareOf(live_.pixels[i]) * variance_[i];
     const float pixels = 1.0f / noise_[i].share;
     const float noise = (pixels * noise_[i].noise + usualPixels * usual) / (pixels + usualPixels);
     const Powers& p = powers_[i];
     if (!(p.mean > 0.0f)) return;
-    const float shown = std::clamp(0.5f * (paths / variance_[i] / kLeastPaths - 1.0f), 0.0f, 1.0f);
-    const float share = std::clamp((p.common - doubt.variances * noise) / p.mean, 0.0f, 1.0f);
+    const float shown = std::clamp(0.5f * (paths / variance_[i] / leastPaths - 1.0f), 0.0f, 1.0f);
+    const float share = std::clamp((p.common - variances * noise) / p.mean, 0.0f, 1.0f);
     residual_.pixels[i] += shown * share * detail_[i].mean();
+  });
+}
+
+// Of pixels with few neighbours that show the same surface, to 1.
+float ResidualFilter::aloneness(size_t pixel) const {
+  return std::clamp(fineVariance_[pixel] / kAlone - 1.0f, 0.0f, 1.0f);
+}
+
+void ResidualFilter::addWindow(Rows rows) {
+  const float side = std::sqrt(kWindowSamples / static_cast<float>(paths_.paths));
+  const int radius = std::clamp(static_cast<int>(0.5f * side), kLeastRadius, kMostRadius);
+  const float few = kWindowPaths / (kWindowPaths + static_cast<float>(paths_.paths));
+  forSurfaces(guides_, rows, [&](int x, int y, size_t i) {
+    const float alone = aloneness(i);
+    if (alone == 0.0f) return;
+    const Halves window = windowResidual(guides_, live_, tame_, x, y, radius);
+    const float power = squareOf(window.mean());
+    const float common = glm::dot(window.first, window.second);
+    const float noise = windowVariances_ * squareOf(window.half());
+    const float share = power > 0.0f ? std::clamp((common - noise) / power, 0.0f, 1.0f) : 0.0f;
+    residual_.pixels[i] += alone * few * (share * window.mean() - residual_.pixels[i]);
   });
 }
 
@@ -346,8 +414,8 @@ void ResidualFilter::addPixels(Rows rows) {
     const float power = squareOf(left);
     if (!(power > 0.0f)) return;
     const float noise = std::max(paths_.variance(i), squareOf(guides_.albedo[i]) * noise_[i].noise);
-    const float alone = std::clamp(fineVariance_[i] / kAlone - 1.0f, 0.0f, 1.0f);
-    const float share = std::max(1.0f - sure * noise / power, alone * paths / (paths + kLivePaths));
+    const float own = aloneness(i) * paths / (paths + kOwnPaths);
+    const float share = std::max(1.0f - sure * noise / power, own);
     residual_.pixels[i] += share * left;
   });
 }

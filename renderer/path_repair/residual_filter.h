@@ -7,6 +7,7 @@
 #include "renderer/path_repair/path_sums.h"
 #include "renderer/path_repair/repair_guides.h"
 #include "renderer/path_repair/surface_mean.h"
+#include "renderer/path_repair/window_residual.h"
 
 namespace lamplighter {
 
@@ -33,7 +34,6 @@ class ResidualFilter {
   Image takeResidual() { return std::move(residual_); }
 
  private:
-  struct Halves;
   struct Sums;
   struct Bounds;
   struct Powers;
@@ -47,14 +47,21 @@ class ResidualFilter {
 
   vec3 known(size_t pixel) const;
   vec3 mean(size_t pixel) const;
+  template <typename F>
+  void forRows(Rows rows, const F& f) const;
   void begin(Rows rows);
+  void weighBorders(Rows rows);
+  void addBorders(Rows rows);
   void takeBounds(Rows rows);
   void tame(Rows rows);
   void beginBands(Rows rows);
   void takeDetail(Rows rows);
   void takeBase(Rows rows);
+  void weighBand(Rows rows);
   void addBand(int band, Rows rows);
+  void addWindow(Rows rows);
   void addPixels(Rows rows);
+  float aloneness(size_t pixel) const;
 
   const RepairGuides& guides_;
   const Image& live_;
@@ -64,9 +71,12 @@ class ResidualFilter {
   size_t next_ = 0;
   int row_ = 0;  // from which on the next step is missing
   Image residual_;
-  // Squares of what the halves differ by, and of the picture: over the whole picture.
-  double allNoise_ = 0.0, allLight_ = 0.0;
-  std::vector<Halves> tame_, smooth_, detail_;
+  // Squares of the picture, and for pixels that show surfaces those of what the halves differ by.
+  double light_ = 0.0, surfaceLight_ = 0.0, surfaceNoise_ = 0.0;
+  double borderCommon_ = 0.0, borderPower_ = 0.0;  // of pixels that show no surface
+  Evidence band_;                                  // of the last band, over the whole picture
+  float windowVariances_ = 0.0f;
+  std::vector<Halves> tame_, smooth_, detail_;  // tame_: all light but single bright paths
   std::vector<Bounds> bounds_, nextBounds_;
   std::vector<Sums> sums_, nextSums_;
   std::vector<Powers> powers_, nextPowers_;

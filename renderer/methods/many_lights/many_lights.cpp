@@ -83,7 +83,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   if (!isSamePicture(in, options)) holdsMix_ = false;
   if (mixOnly(in, options, out, stats)) {
     stages.end(kSharesStage);
-    out.hasSmoothEdges = options.antialias > 1 && lights_.live() > 0;
+    if (options.antialias > 1) out.smoothEdges = smoothEdges();
     if (options.refinement() != options_.refinement()) refinement_.restart();
     options_ = options;
     refineSettled(in, options, false, stages, out, stats);
@@ -168,9 +168,8 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
     }
   }
 
-  // Without lamps all light is on surfaces, whose picture becomes smooth later.
-  out.hasSmoothEdges =
-      samples > 0 && lights_.live() > 0 && (out.settled || (usesShares(in, options) && holdsMix_));
+  if (samples > 0 && (out.settled || (usesShares(in, options) && holdsMix_)))
+    out.smoothEdges = smoothEdges();
 
   // 7. Then refine, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
@@ -178,6 +177,12 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   count(in, options, out, stats);
   if (wantsVisibility && !visibility_) stats.visibilityBytesNeeded = visibilityNeeds_;
   return out;
+}
+
+// Of a picture that is antialiased. Without lamps all light is on surfaces, whose picture becomes
+// smooth later.
+SmoothEdges ManyLights::smoothEdges() const {
+  return lights_.live() > 0 ? SmoothEdges::all : SmoothEdges::lights;
 }
 
 // The state after the frame.

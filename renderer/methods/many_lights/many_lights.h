@@ -87,6 +87,7 @@ class ManyLights final : public GiMethod {
   void mixShares(const FrameInputs& in, const LightShares::Weights& weights);
   void refineSettled(const FrameInputs& in, const Options& options, bool shadedNow,
                      StageTimer& stages, GiOutput& out, ManyLightsStats& stats);
+  SmoothEdges smoothEdges() const;
   void count(const FrameInputs& in, const Options& options, const GiOutput& out,
              ManyLightsStats& stats) const;
   void refine(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,

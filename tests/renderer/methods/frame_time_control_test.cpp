@@ -87,5 +87,21 @@ TEST(FrameTimeControl, FillsTheFrameWithRefinement) {
   EXPECT_EQ(control.within(0.05).updates, 64);
 }
 
+// A preview takes a share of its own; what is left is for other work.
+TEST(FrameTimeControl, LeavesTimeForAPreview) {
+  constexpr StageSpec kPreview{"preview", "", "", StageWork::preview};
+  const Machine machine{0.0005, 0.0, 1000};
+  FrameTimeControl control;
+  for (int i = 0; i < 40; ++i) {
+    const FrameTimeControl::Work work = control.within(0.05);
+    GiStats stats = machine.frame(work);
+    stats.previewUpdates = work.previewUpdates;
+    stats.stageSeconds.push_back({kPreview, 0.0005 * work.previewUpdates});
+    control.measured(stats);
+  }
+  EXPECT_NEAR(control.within(0.05).previewUpdates, 70, 2);
+  EXPECT_NEAR(control.within(0.05).updates, 30, 2);
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -131,9 +131,9 @@ TEST_F(EarlyEdges, AreNotSmoothedTwice) {
   for (int frame = 0; frame < 1000; ++frame) {
     const GiOutput smoothed = picture(renderer, frame, 64);
     const GiOutput plain = picture(without, frame, 0);
-    ASSERT_EQ(smoothed.hasSmoothEdges, plain.hasSmoothEdges);
+    ASSERT_EQ(smoothed.smoothEdges, plain.smoothEdges);
     if (plain.settled) break;
-    if (!plain.hasSmoothEdges) continue;
+    if (plain.smoothEdges != SmoothEdges::all) continue;
     EXPECT_TRUE(test::sameBits(smoothed.radiance->pixels(), plain.radiance->pixels())) << frame;
     ++compared;
   }
