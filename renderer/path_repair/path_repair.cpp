@@ -35,9 +35,9 @@ bool isShown(int paths, int last, int all) {
 
 }  // namespace
 
-bool PathRepair::isDone(const Options& options) const {
-  const int most = isPreview_ ? std::min(options.paths, kWholePaths) : options.paths;
-  return hasNoPixels() || (paths() >= most && !filter_);
+bool PathRepair::hasAllPaths(const Options& options) const {
+  const int all = options.isPreview ? std::min(options.paths, kWholePaths) : options.paths;
+  return hasNoPixels() || paths() >= all;
 }
 
 void PathRepair::begin(const FrameInputs& in, const Options& options) {
@@ -55,10 +55,11 @@ void PathRepair::begin(const FrameInputs& in, const Options& options) {
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
                      const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces,
                      int most) {
-  const bool isSame = in.changes.none() && live_ && in.view == view_ && options.path == path_ &&
-                      paths() <= options.paths;
-  if (!isSame) begin(in, options);
   const bool endsAtSurfaces = surfaces != nullptr;
+  const bool hasMoreWhole = !endsAtSurfaces_ && whole_.paths + (row_ > 0 ? 1 : 0) > kWholePaths;
+  const bool isSame = in.changes.none() && live_ && in.view == view_ && options.path == path_ &&
+                      paths() <= options.paths && !(endsAtSurfaces && hasMoreWhole);
+  if (!isSame) begin(in, options);
   if (live != live_ || options.isPreview != isPreview_ || endsAtSurfaces != endsAtSurfaces_)
     takePicture(live, options.isPreview, endsAtSurfaces);
   int done = 0;
@@ -73,10 +74,10 @@ void PathRepair::takePicture(const std::shared_ptr<RadianceImage>& live, bool is
                              bool endsAtSurfaces) {
   const bool isOther = isPreview != isPreview_ || endsAtSurfaces != endsAtSurfaces_;
   if (isPreview && !isOther && filter_) return;
+  if (endsAtSurfaces_ && whole_.paths >= kWholePaths) row_ = 0;
   live_ = live;
   isPreview_ = isPreview;
   endsAtSurfaces_ = endsAtSurfaces;
-  if (ended_.paths > 0 || (endsAtSurfaces && whole_.paths >= kWholePaths)) row_ = 0;
   ended_ = missing_ = {};
   dropFilter();
   if (hasNoPixels()) return;

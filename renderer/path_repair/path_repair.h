@@ -31,8 +31,9 @@ class PathRepair {
   int goOn(const FrameInputs& in, const Options& options,
            const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces, int most);
 
-  // After goOn() with these options: whether image() has all paths.
-  bool isDone(const Options& options) const;
+  // After goOn() with these options: whether all paths are traced, and whether image() has them.
+  bool hasAllPaths(const Options& options) const;
+  bool isDone(const Options& options) const { return hasAllPaths(options) && !filter_; }
   int paths() const { return whole_.paths + ended_.paths; }  // of each pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }
   // Null until there is one. If it is not of a preview, its bits depend on the number of paths

@@ -115,7 +115,7 @@ class RepairedMethod final : public GiMethod {
     options.isPreview = true;
     int rows = in.services.budget().previewUpdates;
     if (!repair_.image()) rows *= 2;
-    if (repair_.isDone(options)) rows = std::min(rows, kSlowRows);
+    if (repair_.hasAllPaths(options)) rows = std::min(rows, kSlowRows);
     out.stats.previewUpdates = repair_.goOn(in, options, out.radiance, nullptr, rows);
     if (repair_.image()) out.radiance = repair_.image();
     stats = {repair_.paths(), options.paths, stats.rays + repair_.takeRays()};

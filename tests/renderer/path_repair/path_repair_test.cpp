@@ -175,6 +175,19 @@ TEST_F(Repaired, PreviewsThePictureBeforeItSettles) {
   }
 }
 
+// Paths that do not end at known light are kept only as far as a fresh start has them, too.
+TEST_F(Repaired, AnotherCarrierLeavesFreshBits) {
+  previewRows = 7;
+  rest(SceneChanges::all());
+  for (const char* carrier : {"meshes", "samples"}) {
+    settings.set("indirect", std::string(carrier));
+    const Image picture = rest({}).radiance->pixels();
+    auto used = std::move(renderer);
+    EXPECT_TRUE(sameBits(picture, fresh())) << carrier;
+    renderer = std::move(used);
+  }
+}
+
 TEST_F(Repaired, AnEditReturnsToTheLivePicture) {
   rest(SceneChanges::all());
   GiOutput out = step(edit([&](Scene& s) { s.find(box)->local.translation.z += 0.1f; }));
