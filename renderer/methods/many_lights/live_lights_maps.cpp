@@ -94,6 +94,12 @@ int LiveLights::updateMaps(ManyLightsKernels& kernels, const MapLimits& limits) 
   return static_cast<int>(maps.size());
 }
 
+int LiveLights::missingSunTiles() const {
+  return static_cast<int>(std::ranges::count_if(entries_, [](const Entry& e) {
+    return e.isWanted && !e.isLive && e.wanted.vpl.position.w == shared::kVplDirectional;
+  }));
+}
+
 int LiveLights::coarse() const {
   return static_cast<int>(
       std::count_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return isCoarse(e); }));

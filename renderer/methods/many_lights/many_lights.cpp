@@ -307,7 +307,10 @@ int ManyLights::refreshLights(const Options& options) {
   }
   if (visibility_) moved.visibilityTests = visibility_->testsPerColumn();
   if (lightMaps_) moved.lightMapTexels = 2 * lightMaps_->texels();  // subtracted and added again
-  return lights_.refresh(options.budget(), moved, stale);
+  RefreshBudget budget = options.budget();
+  // Without one of its tiles a sun leaves a part of the first picture dark.
+  if (!started_ && budget.vpls > 0) budget.vpls += lights_.missingSunTiles();
+  return lights_.refresh(budget, moved, stale);
 }
 
 // Finds again which maps the view needs, if anything changed that affects this.

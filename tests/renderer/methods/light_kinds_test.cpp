@@ -160,5 +160,25 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
 INSTANTIATE_TEST_SUITE_P(All, LightKinds, testing::ValuesIn(kKinds),
                          [](const auto& i) { return std::string(i.param.name); });
 
+// A sun has many maps, each of a tile of what the camera sees. In the first frame there are all,
+// however few updates a frame may do: without one of them a part of the picture would be dark.
+TEST(Sun, LightsTheWholeFirstPicture) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(0.7f));
+  test::addMesh(scene, test::squareMesh(30.0f, white));
+  test::addMesh(scene, test::boxMesh(vec3(1), white), vec3(-0.8f, 0.5f, -0.5f));
+  punctual(scene, {PunctualKind::directional, vec3(3)}, vec3(0), 0.6f);
+  const View view = test::lookAt(vec3(1.5f, 3.0f, 6.0f), vec3(0), 96, 64, 0.75f);
+  Settings settings;
+  settings.set("updates", 4);
+  settings.set("bounces", 0);
+  FrameRenderer renderer(makeCpuBackend());
+  SceneChanges changes = SceneChanges::all();
+  const Image first =
+      renderer.render({scene, changes, view, "many_lights", settings}).radiance->pixels();
+  const Image reference = test::renderReference(scene, view, 64, 0);
+  EXPECT_LT(compareImages(averageBlocks(first, 8), averageBlocks(reference, 8)).relRmse, 0.15);
+}
+
 }  // namespace
 }  // namespace lamplighter
