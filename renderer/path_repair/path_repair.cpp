@@ -16,7 +16,9 @@ constexpr uint32_t kRepairSet = 0x4e9a1;
 uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0, kRepairSet); }
 
 // The first paths of a pixel end nowhere, so that they can be traced before there is known light.
-constexpr int kWholePaths = 24;
+constexpr int kWholePaths = 16;
+// From which wrongness on a preview is worth its time.
+constexpr float kLeastWrong = 0.25f;
 // Of so many paths that end at known light one goes on, to find what that light lacks.
 constexpr int kPathsAWhole = 4;
 // Russian roulette of all paths begins at this bounce.
@@ -35,9 +37,9 @@ bool isShown(int paths, int last, int all) {
 
 }  // namespace
 
-bool PathRepair::hasAllPaths(const Options& options) const {
+bool PathRepair::isDone(const Options& options) const {
   const int all = options.isPreview ? std::min(options.paths, kWholePaths) : options.paths;
-  return hasNoPixels() || paths() >= all;
+  return hasNoPixels() || (paths() >= all && !filter_);
 }
 
 void PathRepair::begin(const FrameInputs& in, const Options& options) {
@@ -137,8 +139,11 @@ void PathRepair::beginFilter() {
     return;
   }
   if (lacking_) {
+    // Weighed by their noise: paths that end may have far less.
+    const double noise = whole_.noise();
     all_ = whole_;
     all_.subtract(*lacking_);
+    if (noise > 0.0) all_.scale(static_cast<float>(std::min(ended_.noise() / noise, 1.0)));
     all_.add(ended_);
   }
   filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), lacking_ ? all_ : whole_);
@@ -156,6 +161,7 @@ int PathRepair::filter(int most) {
   const int work = (rows + kFilterRows - 1) / kFilterRows;
   if (!filter_->isDone()) return work;
   Image residual = filter_->takeResidual();
+  if (ended_.paths == 0) isWrong_ = filter_->wrongness() > kLeastWrong;
   if (ended_.paths > 0 && !lacking_) {
     lacking_ = std::move(residual);
     beginFilter();

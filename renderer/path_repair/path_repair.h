@@ -31,9 +31,11 @@ class PathRepair {
   int goOn(const FrameInputs& in, const Options& options,
            const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces, int most);
 
-  // After goOn() with these options: whether all paths are traced, and whether image() has them.
-  bool hasAllPaths(const Options& options) const;
-  bool isDone(const Options& options) const { return hasAllPaths(options) && !filter_; }
+  // After goOn() with these options: whether image() has all paths.
+  bool isDone(const Options& options) const;
+  bool hasBegun() const { return live_ != nullptr; }
+  // Of a preview: whether more paths may still show much that the picture lacks.
+  bool isUrgent() const { return isWrong_ && whole_.paths < kQuickPaths; }
   int paths() const { return whole_.paths + ended_.paths; }  // of each pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }
   // Null until there is one. If it is not of a preview, its bits depend on the number of paths
@@ -41,6 +43,8 @@ class PathRepair {
   const std::shared_ptr<RadianceImage>& image() const { return repaired_; }
 
  private:
+  static constexpr int kQuickPaths = 16;
+
   void begin(const FrameInputs& in, const Options& options);
   void takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview, bool endsAtSurfaces);
   int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
@@ -53,6 +57,7 @@ class PathRepair {
 
   std::shared_ptr<RadianceImage> live_;  // null: not begun
   bool isPreview_ = false, endsAtSurfaces_ = false;
+  bool isWrong_ = true;  // as far as the last filter of whole_ can tell
   View view_;
   PathTracerOptions path_;
   RepairGuides guides_;

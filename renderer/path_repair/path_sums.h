@@ -30,17 +30,42 @@ class PathSums {
     group = vec3(0.0f);
   }
   // After all pixels got a path, of the halves in turn.
-  void endPath() { ++paths; }
+  void endPath() {
+    ++paths;
+    weight += 1.0f;
+    if (paths % (2 * kGroup) == 0) groups += 2.0f;
+  }
+  // How much one path differs from others: mean square over the picture. Of as many paths in both
+  // halves.
+  double noise() const {
+    double sum = 0.0;
+    for (size_t i = 0; i < squares_.size(); ++i) {
+      const vec3 difference = first.pixels[i] - second.pixels[i];
+      sum += static_cast<double>(glm::dot(difference, difference));
+    }
+    return paths > 0 ? sum / static_cast<double>(paths) : 0.0;
+  }
+
   // Takes something from each path, by pixel. All groups must be complete.
   void subtract(const Image& taken) {
-    const auto halfPaths = static_cast<float>(paths / 2);
+    const float halfPaths = 0.5f * weight;
     for (size_t i = 0; i < squares_.size(); ++i) {
       const vec3 t = taken.pixels[i], sum = first.pixels[i] + second.pixels[i];
-      const float square = static_cast<float>(paths) * glm::dot(t, t) - 2.0f * glm::dot(t, sum);
+      const float square = weight * glm::dot(t, t) - 2.0f * glm::dot(t, sum);
       squares_[i] += static_cast<float>(kGroup) * square;
       first.pixels[i] -= halfPaths * t;
       second.pixels[i] -= halfPaths * t;
     }
+  }
+  // As if each path counted as so many.
+  void scale(float factor) {
+    for (size_t i = 0; i < squares_.size(); ++i) {
+      first.pixels[i] *= factor;
+      second.pixels[i] *= factor;
+      squares_[i] *= factor;
+    }
+    weight *= factor;
+    groups *= factor;
   }
   // The paths of another. All groups of this must be complete.
   void add(const PathSums& other) {
@@ -51,23 +76,26 @@ class PathSums {
       for (int half = 0; half < 2; ++half) groups_[half].pixels[i] = other.groups_[half].pixels[i];
     }
     paths += other.paths;
+    weight += other.weight;
+    groups += other.groups;
   }
-  // Complete ones, of both halves. To be asked when both have as many paths.
-  int groups() const { return paths / 2 / kGroup * 2; }
-  bool knowsVariance() const { return groups() >= 4; }
+  bool knowsVariance() const { return groups >= 4.0f; }
   // Of the mean of all paths of a pixel; the sum of the channels. From complete groups.
   float variance(size_t pixel) const {
-    const auto n = static_cast<float>(groups()), size = static_cast<float>(kGroup);
+    const float n = groups;
+    constexpr auto size = static_cast<float>(kGroup);
     const vec3 sum = first.pixels[pixel] + second.pixels[pixel] - groups_[0].pixels[pixel] -
                      groups_[1].pixels[pixel];
     const vec3 mean = sum / (n * size);
     const float square = squares_[pixel] / (n * size * size);
     const float ofGroup = std::max(square - glm::dot(mean, mean), 0.0f) * n / (n - 1.0f);
-    return ofGroup * size / static_cast<float>(paths);
+    return ofGroup * size / weight;
   }
 
   Image first, second;  // sums of each half
   int paths = 0;
+  float weight = 0.0f;  // of all paths; unless they are scaled, their number
+  float groups = 0.0f;  // weight of those that are complete
 
  private:
   std::vector<float> squares_;  // of sums of groups, by pixel

@@ -54,6 +54,8 @@ PathTracerOptions pathsOf(const FrameInputs& in) {
           read.leastRoughness};
 }
 
+// A picture that settles in fewer frames is not repaired before.
+constexpr int kManyFrames = 20;
 // Rows of paths in a frame that take little time.
 constexpr int kSlowRows = 16;
 
@@ -72,8 +74,7 @@ class RepairedMethod final : public GiMethod {
     resolveEdges(in, options.paths > 0, out, stats);
     if (options.paths > 0 && out.settled)
       repair(in, options, out, stats);
-    else if (options.paths > 0 && in.changes.none() && in.services.budget().previewUpdates > 0 &&
-             out.radiance->isInMainMemory())
+    else if (options.paths > 0 && mayPreview(in, out))
       preview(in, options, out, stats);
     else
       repair_.restart();
@@ -109,13 +110,20 @@ class RepairedMethod final : public GiMethod {
     stats = {repair_.paths(), options.paths, stats.rays + repair_.takeRays()};
   }
 
-  // The first image comes soon. When all paths are traced, it follows the picture slowly.
+  // Not if the picture will settle soon anyway.
+  bool mayPreview(const FrameInputs& in, const GiOutput& out) const {
+    return in.changes.none() && in.services.budget().previewUpdates > 0 &&
+           out.radiance->isInMainMemory() &&
+           (repair_.hasBegun() || out.stats.framesUntilSettled >= kManyFrames);
+  }
+
+  // The first image comes soon. When it is rather good, it follows the picture slowly.
   void preview(const FrameInputs& in, PathRepair::Options options, GiOutput& out,
                RepairStats& stats) {
     options.isPreview = true;
     int rows = in.services.budget().previewUpdates;
     if (!repair_.image()) rows *= 2;
-    if (repair_.hasAllPaths(options)) rows = std::min(rows, kSlowRows);
+    if (!repair_.isUrgent()) rows = std::min(rows, kSlowRows);
     out.stats.previewUpdates = repair_.goOn(in, options, out.radiance, nullptr, rows);
     if (repair_.image()) out.radiance = repair_.image();
     stats = {repair_.paths(), options.paths, stats.rays + repair_.takeRays()};

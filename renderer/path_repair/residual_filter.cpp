@@ -230,8 +230,7 @@ void ResidualFilter::planPixels() {
 }
 
 vec3 ResidualFilter::mean(size_t pixel) const {
-  return (paths_.first.pixels[pixel] + paths_.second.pixels[pixel]) /
-         static_cast<float>(paths_.paths);
+  return (paths_.first.pixels[pixel] + paths_.second.pixels[pixel]) / paths_.weight;
 }
 
 // Calls f(index) for all pixels in order: sums do not depend on the number of threads.
@@ -245,7 +244,7 @@ void ResidualFilter::forRows(Rows rows, const F& f) const {
 
 // Residuals of both halves.
 void ResidualFilter::begin(Rows rows) {
-  const float scale = 2.0f / static_cast<float>(paths_.paths);
+  const float scale = 2.0f / paths_.weight;
   forRows(rows, [&](size_t i) {
     tame_[i] = {scale * paths_.first.pixels[i] - known(i),
                 scale * paths_.second.pixels[i] - known(i)};
@@ -287,7 +286,7 @@ void ResidualFilter::takeBounds(Rows rows) {
 // Bounds what is far brighter in one half than in the other, and what is far brighter than all
 // around it: single bright paths.
 void ResidualFilter::tame(Rows rows) {
-  const float mostResidual = kMostResidual + static_cast<float>(paths_.paths) / kPathsABound;
+  const float mostResidual = kMostResidual + paths_.weight / kPathsABound;
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     Halves& h = tame_[i];
     const vec3& albedo = guides_.albedo[i];
@@ -358,7 +357,7 @@ void ResidualFilter::weighBand(Rows rows) {
 }
 
 void ResidualFilter::addBand(int band, Rows rows) {
-  const auto paths = static_cast<float>(paths_.paths);
+  const float paths = paths_.weight;
   const Doubt& doubt = estimate_ == Estimate::residual ? kResidualDoubt
                        : band < kFineBands             ? kFineDoubt
                                                        : kCoarseDoubt;
@@ -367,6 +366,7 @@ void ResidualFilter::addBand(int band, Rows rows) {
   const float variances = doubt.variances * glm::mix(1.0f, kWrongVariances, wrong);
   const float leastPaths = glm::mix(kLeastPaths, kWrongPaths, wrong);
   if (band == kFineBands) windowVariances_ = variances;
+  if (rows.first == 0) wrongness_ += wrong / static_cast<float>(kBands + 1 - kFineBands);
   // Of a path, by the square of the picture.
   const auto usualNoise =
       surfaceLight_ > 0.0 ? static_cast<float>(surfaceNoise_ / surfaceLight_) : 0.0f;
@@ -388,9 +388,9 @@ float ResidualFilter::aloneness(size_t pixel) const {
 }
 
 void ResidualFilter::addWindow(Rows rows) {
-  const float side = std::sqrt(kWindowSamples / static_cast<float>(paths_.paths));
+  const float side = std::sqrt(kWindowSamples / paths_.weight);
   const int radius = std::clamp(static_cast<int>(0.5f * side), kLeastRadius, kMostRadius);
-  const float few = kWindowPaths / (kWindowPaths + static_cast<float>(paths_.paths));
+  const float few = kWindowPaths / (kWindowPaths + paths_.weight);
   forSurfaces(guides_, rows, [&](int x, int y, size_t i) {
     const float alone = aloneness(i);
     if (alone == 0.0f) return;
@@ -407,8 +407,8 @@ void ResidualFilter::addWindow(Rows rows) {
 // at the wrong place. It is shown where it exceeds by far the noise of the paths of the pixel and,
 // because paths that find nothing show none, of those around it.
 void ResidualFilter::addPixels(Rows rows) {
-  const auto paths = static_cast<float>(paths_.paths);
-  const float sure = kSurePixel * (1.0f + kFewGroups / static_cast<float>(paths_.groups()));
+  const float paths = paths_.weight;
+  const float sure = kSurePixel * (1.0f + kFewGroups / paths_.groups);
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3 left = mean(i) - known(i) - residual_.pixels[i];
     const float power = squareOf(left);

@@ -30,6 +30,9 @@ class ResidualFilter {
   // Goes through the picture many times, a number of rows in each call. Returns how many.
   bool isDone() const { return next_ == steps_.size(); }
   int step(int mostRows);
+  // When it is done: whether the picture differs from the truth by more than noise, in the mean of
+  // coarse bands. 0: that cannot be told. 1: by much.
+  float wrongness() const { return wrongness_; }
   // Once, when it is done: the residual [W/(m² sr)].
   Image takeResidual() { return std::move(residual_); }
 
@@ -75,7 +78,7 @@ class ResidualFilter {
   double light_ = 0.0, surfaceLight_ = 0.0, surfaceNoise_ = 0.0;
   double borderCommon_ = 0.0, borderPower_ = 0.0;  // of pixels that show no surface
   Evidence band_;                                  // of the last band, over the whole picture
-  float windowVariances_ = 0.0f;
+  float windowVariances_ = 0.0f, wrongness_ = 0.0f;
   std::vector<Halves> tame_, smooth_, detail_;  // tame_: all light but single bright paths
   std::vector<Bounds> bounds_, nextBounds_;
   std::vector<Sums> sums_, nextSums_;

@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 program=$1
 shift
-size=512x384 bounces=5 seconds=30 spp=256
+size=512x384 bounces=5 seconds=30
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -23,8 +23,8 @@ number() {  # number NAME FORMAT [FACTOR]: the last value of that name in $text
   [ "$value" != null ] && LC_ALL=C printf "$2" "$(awk "BEGIN { print $value * ${3:-1} }")" || printf 'never'
 }
 
-row() {  # row NAME FILE
-  quietly "$program" render "$2" --method reference --size $size --bounces $bounces --spp $spp -o "$work/r.exr" \
+row() {  # row NAME FILE PATHS: those of a pixel of the reference
+  quietly "$program" render "$2" --method reference --size $size --bounces $bounces --spp "$3" -o "$work/r.exr" \
     >/dev/null
   converge "$2"
   local cells
@@ -42,5 +42,6 @@ for file in assets/scenes/{cornell_style,pillar_room,door_ajar,corridor}.gltf \
   name=$(basename "${file%.*}")
   [ $# -eq 0 ] && wanted=1 || wanted=0
   for part in "$@"; do case $name in *"$part"*) wanted=1 ;; esac; done
-  [ $wanted -eq 0 ] || row "$name" "$file"
+  case $file in assets/*) paths=512 ;; *) paths=256 ;; esac
+  [ $wanted -eq 0 ] || row "$name" "$file" $paths
 done

@@ -219,9 +219,14 @@ TEST(PathSumsTest, SumsCanBeJoined) {
     all.endPath();
     part.endPath();
   }
+  const PathSums whole = first;
   first.subtract(taken);
+  first.scale(0.5f);
+  first.scale(2.0f);
   first.add(second);
   EXPECT_EQ(first.paths, all.paths);
+  EXPECT_EQ(first.weight, 36.0f);
+  EXPECT_NEAR(whole.noise(), 100.0 / 12.0, 3.0);  // a hundred pixels, evenly from 0 to 1
   for (uint32_t i = 0; i < kPixels; ++i) {
     EXPECT_NEAR(first.variance(i), all.variance(i), 1e-5f);
     EXPECT_NEAR(first.first.pixels[i].x, all.first.pixels[i].x, 1e-4f);
