@@ -17,8 +17,8 @@ uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0, 
 
 // The first paths of a pixel end nowhere, so that they can be traced before there is known light.
 constexpr int kWholePaths = 16;
-// From which wrongness on a preview is worth its time.
-constexpr float kLeastWrong = 0.25f;
+// The relative error from which on a preview is worth its time.
+constexpr float kLeastError = 0.05f;
 // Of so many paths that end at known light one goes on, to find what that light lacks.
 constexpr int kPathsAWhole = 4;
 // Russian roulette of all paths begins at this bounce.
@@ -161,7 +161,7 @@ int PathRepair::filter(int most) {
   const int work = (rows + kFilterRows - 1) / kFilterRows;
   if (!filter_->isDone()) return work;
   Image residual = filter_->takeResidual();
-  if (ended_.paths == 0) isWrong_ = filter_->wrongness() > kLeastWrong;
+  if (ended_.paths == 0) isWrong_ = filter_->error() > kLeastError;
   if (ended_.paths > 0 && !lacking_) {
     lacking_ = std::move(residual);
     beginFilter();

@@ -57,7 +57,7 @@ class PathRepair {
 
   std::shared_ptr<RadianceImage> live_;  // null: not begun
   bool isPreview_ = false, endsAtSurfaces_ = false;
-  bool isWrong_ = true;  // as far as the last filter of whole_ can tell
+  bool isWrong_ = true;  // the picture, as far as the last filter of whole_ can tell
   View view_;
   PathTracerOptions path_;
   RepairGuides guides_;

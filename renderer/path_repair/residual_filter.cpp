@@ -28,8 +28,7 @@ constexpr float kUsualPaths = 64.0f;
 // A band is shown from the first number of paths behind a pixel on, and fully from three times as
 // many on: before, two bright paths may meet by chance.
 constexpr float kLeastPaths = 16.0f;
-// Pixels at borders that are far darker than the mean of the picture count less for the weight of
-// all.
+// Pixels that are far darker than the mean of the picture count less in sums over it.
 constexpr double kDark = 0.01;
 // All this is for pictures that are nearly right. Where the halves agree in a coarse band by this
 // share (Evidence), the picture is wrong: then this part of the variances is enough, no usual noise
@@ -205,7 +204,7 @@ void ResidualFilter::planBand(int band) {
       });
     });
     planMeans(sums_, nextSums_, step);
-    steps_.push_back([this](Rows rows) { takeDetail(rows); });
+    steps_.push_back([this, band](Rows rows) { takeDetail(band, rows); });
   } else {
     steps_.push_back([this](Rows rows) { takeBase(rows); });
   }
@@ -255,15 +254,20 @@ void ResidualFilter::begin(Rows rows) {
   });
 }
 
-// A pixel counts by the inverse of its light, so that the brightest do not decide alone.
-void ResidualFilter::weighBorders(Rows rows) {
+// In sums over the picture a pixel counts by the inverse of its power, so that the brightest do not
+// decide alone.
+double ResidualFilter::weight(size_t pixel) const {
   const double dark = kDark * light_ / static_cast<double>(live_.pixels.size());
+  const double all = static_cast<double>(squareOf(live_.pixels[pixel])) + dark;
+  return all > 0.0 ? 1.0 / all : 0.0;
+}
+
+void ResidualFilter::weighBorders(Rows rows) {
   forRows(rows, [&](size_t i) {
-    const double light = static_cast<double>(squareOf(live_.pixels[i])) + dark;
-    if (guides_.normal[i] != vec3(0.0f) || !(light > 0.0)) return;
+    if (guides_.normal[i] != vec3(0.0f)) return;
     const Halves& h = tame_[i];
-    borderCommon_ += static_cast<double>(glm::dot(h.first, h.second)) / light;
-    borderPower_ += static_cast<double>(squareOf(h.mean())) / light;
+    borderCommon_ += weight(i) * static_cast<double>(glm::dot(h.first, h.second));
+    borderPower_ += weight(i) * static_cast<double>(squareOf(h.mean()));
   });
 }
 
@@ -324,7 +328,7 @@ void ResidualFilter::beginBands(Rows rows) {
 }
 
 // What the last means took away.
-void ResidualFilter::takeDetail(Rows rows) {
+void ResidualFilter::takeDetail(int band, Rows rows) {
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3 scale = guides_.albedo[i] / sums_[i].squares;
     const Halves now{scale * sums_[i].tame.first, scale * sums_[i].tame.second};
@@ -334,7 +338,7 @@ void ResidualFilter::takeDetail(Rows rows) {
     powers_[i] = {glm::dot(detail.first, detail.second), squareOf(detail.mean()),
                   squareOf(detail.half()), 1.0f};
   });
-  weighBand(rows);
+  weighBand(band, rows);
 }
 
 // What is left: the mean over the whole surroundings, with all that was bounded.
@@ -346,14 +350,22 @@ void ResidualFilter::takeBase(Rows rows) {
     powers_[i] = {glm::dot(detail_[i].first, detail_[i].second), squareOf(detail_[i].mean()),
                   squareOf(detail_[i].half()), 1.0f};
   });
-  weighBand(rows);
+  weighBand(kBands, rows);
 }
 
-void ResidualFilter::weighBand(Rows rows) {
+void ResidualFilter::weighBand(int band, Rows rows) {
   if (rows.first == 0) band_ = {};
   forRows(rows, [&](size_t i) {
-    if (guides_.normal[i] != vec3(0.0f)) band_.add(detail_[i], variance_[i]);
+    if (guides_.normal[i] == vec3(0.0f)) return;
+    const Halves& d = detail_[i];
+    band_.add(d, variance_[i]);
+    if (band >= kFineBands) error_ += weight(i) * static_cast<double>(glm::dot(d.first, d.second));
   });
+}
+
+float ResidualFilter::error() const {
+  return static_cast<float>(
+      std::sqrt(std::max(error_, 0.0) / static_cast<double>(live_.pixels.size())));
 }
 
 void ResidualFilter::addBand(int band, Rows rows) {
@@ -366,7 +378,6 @@ void ResidualFilter::addBand(int band, Rows rows) {
   const float variances = doubt.variances * glm::mix(1.0f, kWrongVariances, wrong);
   const float leastPaths = glm::mix(kLeastPaths, kWrongPaths, wrong);
   if (band == kFineBands) windowVariances_ = variances;
-  if (rows.first == 0) wrongness_ += wrong / static_cast<float>(kBands + 1 - kFineBands);
   // Of a path, by the square of the picture.
   const auto usualNoise =
       surfaceLight_ > 0.0 ? static_cast<float>(surfaceNoise_ / surfaceLight_) : 0.0f;

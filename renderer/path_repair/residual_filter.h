@@ -30,9 +30,9 @@ class ResidualFilter {
   // Goes through the picture many times, a number of rows in each call. Returns how many.
   bool isDone() const { return next_ == steps_.size(); }
   int step(int mostRows);
-  // When it is done: whether the picture differs from the truth by more than noise, in the mean of
-  // coarse bands. 0: that cannot be told. 1: by much.
-  float wrongness() const { return wrongness_; }
+  // When it is done: by how much the picture differs from the truth in coarse bands, relative and
+  // in the root mean square, as far as that is no noise.
+  float error() const;
   // Once, when it is done: the residual [W/(m² sr)].
   Image takeResidual() { return std::move(residual_); }
 
@@ -53,14 +53,15 @@ class ResidualFilter {
   template <typename F>
   void forRows(Rows rows, const F& f) const;
   void begin(Rows rows);
+  double weight(size_t pixel) const;
   void weighBorders(Rows rows);
   void addBorders(Rows rows);
   void takeBounds(Rows rows);
   void tame(Rows rows);
   void beginBands(Rows rows);
-  void takeDetail(Rows rows);
+  void takeDetail(int band, Rows rows);
   void takeBase(Rows rows);
-  void weighBand(Rows rows);
+  void weighBand(int band, Rows rows);
   void addBand(int band, Rows rows);
   void addWindow(Rows rows);
   void addPixels(Rows rows);
@@ -78,7 +79,8 @@ class ResidualFilter {
   double light_ = 0.0, surfaceLight_ = 0.0, surfaceNoise_ = 0.0;
   double borderCommon_ = 0.0, borderPower_ = 0.0;  // of pixels that show no surface
   Evidence band_;                                  // of the last band, over the whole picture
-  float windowVariances_ = 0.0f, wrongness_ = 0.0f;
+  double error_ = 0.0;                             // its square, times the pixels
+  float windowVariances_ = 0.0f;
   std::vector<Halves> tame_, smooth_, detail_;  // tame_: all light but single bright paths
   std::vector<Bounds> bounds_, nextBounds_;
   std::vector<Sums> sums_, nextSums_;

@@ -139,6 +139,19 @@ TEST_F(Residuals, ASmoothErrorIsRepairedLongBeforeTheNoiseIsGone) {
   EXPECT_LT(last, 0.15 * before);
 }
 
+// Noise of far more than the error does not hide how large it is.
+TEST_F(Residuals, TheErrorOfThePictureIsFound) {
+  const auto errorFound = [&] {
+    ResidualFilter filter(guides, live, sums);
+    while (!filter.isDone()) filter.step(rows);
+    return filter.error();
+  };
+  trace(8, 8);
+  EXPECT_LT(errorFound(), 0.05f);
+  for (vec3& p : live.pixels) p *= 0.8f;
+  EXPECT_NEAR(errorFound(), 0.25f, 0.05f);
+}
+
 TEST_F(Residuals, AMissingDetailComesWithThePaths) {
   for (int y = 0; y < kHeight / 2; ++y)
     for (int x = 0; x < kWidth; ++x)
