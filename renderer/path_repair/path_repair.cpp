@@ -27,7 +27,8 @@ constexpr int kSureBounces = 2;
 // So many rows of a step of the filter count as a row of paths. On average 60 to 90 take as long;
 // some steps are slower.
 constexpr int kFilterRows = 48;
-// The memory of the filter is some 300 bytes a pixel: larger pictures are not repaired.
+// The memory of the filter and of the sums is some 600 bytes a pixel: larger pictures are not
+// repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
 // Whether the picture after so many paths is filtered: always half as many more than the last.

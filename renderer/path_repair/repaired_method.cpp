@@ -71,10 +71,11 @@ class RepairedMethod final : public GiMethod {
     GiOutput out = renderMethod(in, options.paths > 0);
     const double start = in.stopwatch ? in.stopwatch() : 0.0;
     RepairStats stats;
+    const bool isStill = in.changes.none() && in.view == view_;
     resolveEdges(in, options.paths > 0, out, stats);
     if (options.paths > 0 && out.settled)
       repair(in, options, out, stats);
-    else if (options.paths > 0 && mayPreview(in, out))
+    else if (options.paths > 0 && isStill && mayPreview(in, out))
       preview(in, options, out, stats);
     else
       repair_.restart();
@@ -112,8 +113,7 @@ class RepairedMethod final : public GiMethod {
 
   // Not if the picture will settle soon anyway.
   bool mayPreview(const FrameInputs& in, const GiOutput& out) const {
-    return in.changes.none() && in.services.budget().previewUpdates > 0 &&
-           out.radiance->isInMainMemory() &&
+    return in.services.budget().previewUpdates > 0 && out.radiance->isInMainMemory() &&
            (repair_.hasBegun() || out.stats.framesUntilSettled >= kManyFrames);
   }
 

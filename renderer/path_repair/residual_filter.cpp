@@ -44,9 +44,9 @@ constexpr float kSurePixel = 9.0f, kFewGroups = 10.0f;
 // that show the same surface: leaves, legs of chairs, edges. From twice that on they take all of
 // their own paths.
 constexpr float kAlone = 0.1f;
-// The windows of these pixels have about so many paths [pixels].
+// All pixels of their window together have about so many paths.
 constexpr float kWindowSamples = 600.0f;
-constexpr int kLeastRadius = 2, kMostRadius = 8;
+constexpr int kLeastRadius = 2, kMostRadius = 8;  // of the window [pixels]
 // With fewer paths than the first, these pixels are rather scaled as those around them, and with
 // fewer than the second they rather stay as they are.
 constexpr float kWindowPaths = 8.0f, kOwnPaths = 16.0f;

@@ -175,6 +175,20 @@ TEST_F(Repaired, PreviewsThePictureBeforeItSettles) {
   }
 }
 
+// Nor while the camera moves.
+TEST_F(Repaired, AFlightTracesNoPaths) {
+  settings.set("updates", 4);
+  previewRows = 48;
+  step(SceneChanges::all());
+  for (int frame = 0; frame < 4; ++frame) {
+    view.eye.x -= 0.01f;
+    const GiOutput out = step();
+    ASSERT_FALSE(out.settled);
+    EXPECT_EQ(out.stats.previewUpdates, 0) << frame;
+  }
+  EXPECT_GT(step().stats.previewUpdates, 0);
+}
+
 // Paths that do not end at known light are kept only as far as a fresh start has them, too.
 TEST_F(Repaired, AnotherCarrierLeavesFreshBits) {
   previewRows = 7;
