@@ -20,7 +20,8 @@ constexpr double kFirstUpdates = 64.0;
 // The share of the limit that each kind of work gets at least. Without it, light on surfaces would
 // leave nothing to the direct light of a dragged lamp, which would lag behind.
 constexpr double kLeastShare = 0.25;
-// And what a preview of the repair gets. More would delay the picture that it repairs.
+// The share of the limit for paths that repair a picture before it has settled. A larger one would
+// delay the picture itself.
 constexpr double kPreviewShare = 0.7;
 
 void average(double& mean, double value) {

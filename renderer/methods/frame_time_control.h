@@ -26,8 +26,8 @@ class WorkRate {
 };
 
 // A frame consists of updates of light samples, of light on surfaces, and of stages that cannot be
-// told to do less. If these leave too little, both kinds of work get a quarter of the limit each. A
-// preview of the repair of a picture at rest gets half of the limit.
+// told to do less. If these leave too little, both kinds of work get a quarter of the limit each.
+// Paths that repair a picture before it has settled get seven tenths of the limit.
 class FrameTimeControl {
  public:
   struct Work {

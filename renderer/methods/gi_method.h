@@ -55,7 +55,9 @@ struct GiStats {
   // Items that were brought up to date in this frame, at most the parameter `updates`; items that
   // wait for it; items by which the settled picture was refined, at most refineUpdates.
   int updates = 0, pending = 0, refineUpdates = 0;
-  int previewUpdates = 0;  // rows of paths that preview a repair, at most FrameBudget's
+  // Rows of paths traced to repair the picture before it has settled, at most
+  // FrameBudget::previewUpdates.
+  int previewUpdates = 0;
   // The share of the usual work of a frame on light on surfaces that this frame was limited to; 0:
   // it did none.
   float surfaceWork = 0.0f;

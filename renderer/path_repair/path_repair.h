@@ -34,7 +34,7 @@ class PathRepair {
   // After goOn() with these options: whether image() has all paths.
   bool isDone(const Options& options) const;
   bool hasBegun() const { return live_ != nullptr; }
-  // Of a preview: whether more paths may still show much that the picture lacks.
+  // Of a preview: whether the picture is so wrong, and the paths are so few, that more of them pay.
   bool isUrgent() const { return isWrong_ && whole_.paths < kQuickPaths; }
   int paths() const { return whole_.paths + ended_.paths; }  // of each pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }

@@ -54,9 +54,9 @@ PathTracerOptions pathsOf(const FrameInputs& in) {
           read.leastRoughness};
 }
 
-// A picture that settles in fewer frames is not repaired before.
+// A picture that will settle in fewer frames is not repaired before that.
 constexpr int kManyFrames = 20;
-// Rows of paths in a frame that take little time.
+// Rows of paths in a frame when more are not urgent.
 constexpr int kSlowRows = 16;
 
 class RepairedMethod final : public GiMethod {
@@ -117,7 +117,8 @@ class RepairedMethod final : public GiMethod {
            (repair_.hasBegun() || out.stats.framesUntilSettled >= kManyFrames);
   }
 
-  // The first image comes soon. When it is rather good, it follows the picture slowly.
+  // The first image gets twice the budget, so that it is there soon. When more paths are not
+  // urgent, few rows are traced, so that the picture settles.
   void preview(const FrameInputs& in, PathRepair::Options options, GiOutput& out,
                RepairStats& stats) {
     options.isPreview = true;

@@ -11,9 +11,9 @@
 
 namespace lamplighter {
 
-// For pixels whose neighbours show other surfaces: leaves, legs of chairs. They share no residual,
-// but probably light: the picture is scaled as it is in the mean of the window, which
-// has this radius [pixels]. `residuals`: by pixel, of those that the guides say show a surface.
+// For pixels whose neighbours show other surfaces: leaves, legs of chairs. Their surfaces differ,
+// but probably receive similar light: the pixel is scaled by the same factor as the mean of the
+// window. `residuals`: by pixel, of pixels that show a surface. `radius`: of the window [pixels].
 inline Halves windowResidual(const RepairGuides& guides, const Image& picture,
                              const std::vector<Halves>& residuals, int x, int y, int radius) {
   constexpr float kLeastLight = 1e-6f;

@@ -28,7 +28,7 @@ struct FrameBudget {
   bool inBackground = false;
   // By how many light samples, or rows of paths, this frame may improve a settled picture; 0: none.
   int refineUpdates = 0;
-  // By how many rows of paths it may preview the repair of a picture that has not settled; 0: none.
+  // How many rows of paths it may trace to repair a picture before it has settled; 0: none.
   int previewUpdates = 0;
   // The work on light on surfaces (elements, links or a field), as a share of the usual work of a
   // frame. Not given: the value of the parameter `updates` divided by its default.

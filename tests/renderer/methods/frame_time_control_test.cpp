@@ -87,6 +87,19 @@ TEST(FrameTimeControl, FillsTheFrameWithRefinement) {
   EXPECT_EQ(control.within(0.05).updates, 64);
 }
 
+// The frame in which a picture settles may be long. Later ones are not held up by that, although
+// whole numbers of updates are a little less than the limits that were computed.
+TEST(FrameTimeControl, RefinementRecoversFromALongFrame) {
+  FrameTimeControl control;
+  for (int i = 0; i < 40; ++i) {
+    GiStats stats;
+    stats.refineUpdates = control.within(0.05).refineUpdates;
+    stats.stageSeconds = {{kRefinementStage, i == 0 ? 0.06 : 0.0003 * stats.refineUpdates}};
+    control.measured(stats);
+  }
+  EXPECT_NEAR(control.within(0.05).refineUpdates, 166, 3);
+}
+
 // A preview takes a share of its own; what is left is for other work.
 TEST(FrameTimeControl, LeavesTimeForAPreview) {
   constexpr StageSpec kPreview{"preview", "", "", StageWork::preview};
