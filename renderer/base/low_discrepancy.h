@@ -24,9 +24,13 @@ class PathSampler {
   PathSampler(uint32_t pixel, uint32_t sample, uint32_t seed)
       : pixel_(pixel), sample_(sample), seed_(seed) {}
   vec2 next2();
-  float next1() { return next2().x; }
+  float next1();  // the first number of next2()
+  // Leaves out a dimension that is not needed: later ones stay the same.
+  void skip() { ++dimension_; }
 
  private:
+  uint32_t nextScramble();
+
   uint32_t pixel_, sample_, seed_, dimension_ = 0;
 };
 

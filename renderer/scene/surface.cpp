@@ -27,6 +27,7 @@ const SrgbTable& srgbTable() {
 }
 
 int wrapTexel(int i, int size, Wrap wrap) {
+  if (i >= 0 && i < size) return i;  // the usual case, without a division
   switch (wrap) {
     case Wrap::clamp:
       return std::clamp(i, 0, size - 1);
@@ -74,6 +75,7 @@ T interpolate(const std::vector<T>& values, const Corners& c) {
 vec2 transformed(const TextureRef& ref, const vec2& uv) {
   // KHR_texture_transform: scale, then rotate counter-clockwise about the origin, then offset.
   const vec2 s = uv * ref.scale;
+  if (ref.rotation == 0.0f) return s + ref.offset;
   const float c = std::cos(ref.rotation), n = std::sin(ref.rotation);
   return vec2(c * s.x + n * s.y, -n * s.x + c * s.y) + ref.offset;
 }

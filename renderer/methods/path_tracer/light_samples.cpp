@@ -70,13 +70,27 @@ vec3 LightSamples::skySeen(const vec3& direction, float pdfDirection) const {
 }
 
 vec3 LightSamples::direct(const LocalSurface& at, PathSampler& sampler) {
-  const float choice = sampler.next1();
-  const vec2 u = sampler.next2();
-  const float punctualChoice = sampler.next1();
   const bool samplesSky = !scene_.sky.isBlack() && !lights_.sky().isConstant() &&
                           !isLeftOut(at.leftOutBy, scene_.skyLink);
-  const vec2 skyChoice = samplesSky ? sampler.next2() : vec2(0.0f);
-  if (at.s.albedo == vec3(0.0f) && !at.gloss) return vec3(0.0f);
+  const bool isBlack = at.s.albedo == vec3(0.0f) && !at.gloss;
+  float choice = 0.0f, punctualChoice = 0.0f;
+  vec2 u(0.0f), skyChoice(0.0f);
+  if (isBlack || lights_.emitters().empty()) {
+    sampler.skip();
+    sampler.skip();
+  } else {
+    choice = sampler.next1();
+    u = sampler.next2();
+  }
+  if (isBlack || scene_.punctuals.empty())
+    sampler.skip();
+  else
+    punctualChoice = sampler.next1();
+  if (isBlack && samplesSky)
+    sampler.skip();
+  else if (samplesSky)
+    skyChoice = sampler.next2();
+  if (isBlack) return vec3(0.0f);
   float probability = 0.0f;
   const int emitter = lights_.chooseSurface(at.s.position, choice, probability);
   vec3 radiance = fromPunctuals(at, punctualChoice), w;

@@ -173,5 +173,15 @@ TEST(LightSet, ASceneWithoutLightHasNoEmitters) {
   EXPECT_EQ(s.lights.chooseSurface(vec3(0.0f), 0.5f, p), kNone);
 }
 
+TEST(PathSampler, NumbersDoNotDependOnWhatIsLeftOut) {
+  for (uint32_t sample = 0; sample < 64; ++sample) {
+    PathSampler all(5, sample, 9), few(5, sample, 9);
+    EXPECT_EQ(few.next1(), all.next2().x);
+    all.next2();
+    few.skip();
+    EXPECT_EQ(few.next2(), all.next2());
+  }
+}
+
 }  // namespace
 }  // namespace lamplighter
