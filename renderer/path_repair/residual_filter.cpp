@@ -34,9 +34,16 @@ constexpr double kDark = 0.01;
 // share (Evidence), the picture is wrong: then this part of the variances is enough, no usual noise
 // is added, and fewer paths do. Not so in fine bands, whose noise shows as grain.
 constexpr float kWrong = 0.1f, kWrongVariances = 0.3f, kWrongPaths = 4.0f;
-// Neighbours in a coarse band share paths: their mean has so much more variance than that of
-// independent ones.
-constexpr float kCorrelation = 1.78f;
+// In fine bands the halves are believed where the pixels around agree by so much, less what chance
+// explains: three standard deviations of the agreement of one pixel. Then it is as if the picture
+// were wrong. Not with fewer paths behind a pixel: paths that find nothing agree, too.
+constexpr float kAgreement = 0.3f, kByChance = 1.8f, kAgreePaths = 4.0f;
+// The slope of the residual over the picture must be above its noise by so much [variances].
+constexpr float kSlopeVariances = 9.0f;
+// Of the window that weighs borders [pixels], and by how many variances the halves must agree in
+// it.
+constexpr int kBorderRadius = 2;
+constexpr float kBorderVariances = 2.0f;
 // What is left of a pixel after all bands must exceed so many of its variances, and more where
 // these are known from few groups of paths.
 constexpr float kSurePixel = 9.0f, kFewGroups = 10.0f;
@@ -53,82 +60,29 @@ constexpr float kWindowPaths = 8.0f, kOwnPaths = 16.0f;
 
 float squareOf(const vec3& v) { return glm::dot(v, v); }
 
+// Whether so many paths are at least `least`: 0 up to that, 1 from three times as many on.
+float many(float paths, float least) {
+  return std::clamp(0.5f * (paths / least - 1.0f), 0.0f, 1.0f);
+}
+
+// Whether a fine band is no noise around a pixel, to 1: the agreement of the pixels there, less
+// what chance explains.
+float sureness(const BandPowers& p) {
+  return std::clamp((p.agreement - kByChance * std::sqrt(p.share)) / kAgreement, 0.0f, 1.0f);
+}
+
+// How much of a band of the picture the paths find missing, as far as that is no noise: the slope
+// of the residual over the picture, by least squares over the pixels around, at least -1. If the
+// picture has a pattern of its own there, it is -1.
+float slopeOverPicture(const BandPowers& p, float noise) {
+  constexpr float kMost = 0.5f;
+  const float square = p.withPicture * p.withPicture;
+  const float chance = kSlopeVariances * noise * p.picture * p.share;
+  if (!(square > chance)) return 0.0f;
+  return (1.0f - chance / square) * std::clamp(p.withPicture / p.picture, -1.0f, kMost);
+}
+
 }  // namespace
-
-// Residuals times albedo, and its square: their quotient is the residual of a white surface, by
-// least squares.
-struct ResidualFilter::Sums {
-  Halves tame;
-  vec3 excess{0.0f};  // of both halves: what was bounded, which only the widest mean gets
-  vec3 squares{0.0f};
-  float variance = 1.0f;  // of the mean, with the variance of a pixel 1
-
-  static Sums nothing() { return {{}, vec3(0.0f), vec3(0.0f), 0.0f}; }
-  void add(float w, const Sums& s) {
-    tame.first += w * s.tame.first;
-    tame.second += w * s.tame.second;
-    excess += w * s.excess;
-    squares += w * s.squares;
-    variance += kCorrelation * w * w * s.variance;
-  }
-  void divide(float all) {
-    const float scale = 1.0f / all;
-    tame.first *= scale;
-    tame.second *= scale;
-    excess *= scale;
-    squares *= scale;
-    variance = std::min(variance * scale * scale, 1.0f);
-  }
-};
-
-// Squares of the usual difference and of the usual residual, of a white surface.
-struct ResidualFilter::Bounds {
-  float difference = 0.0f, residual = 0.0f;
-
-  static Bounds nothing() { return {}; }
-  void add(float w, const Bounds& b) {
-    difference += w * b.difference;
-    residual += w * b.residual;
-  }
-  void divide(float all) {
-    difference /= all;
-    residual /= all;
-  }
-};
-
-// Of a band: what both halves have in common, the power of their mean, its noise.
-struct ResidualFilter::Powers {
-  float common = 0.0f, mean = 0.0f, noise = 0.0f;
-  float share = 1.0f;  // sum of squared weights: one by the number of independent pixels
-
-  static Powers nothing() { return {0.0f, 0.0f, 0.0f, 0.0f}; }
-  void add(float w, const Powers& p) {
-    common += w * p.common;
-    mean += w * p.mean;
-    noise += w * p.noise;
-    share += w * w * p.share;
-  }
-  void divide(float all) {
-    common /= all;
-    mean /= all;
-    noise /= all;
-    share /= all * all;
-  }
-};
-
-struct ResidualFilter::Noise {
-  float noise = 0.0f, share = 1.0f;
-
-  static Noise nothing() { return {0.0f, 0.0f}; }
-  void add(float w, const Noise& n) {
-    noise += w * n.noise;
-    share += w * w * n.share;
-  }
-  void divide(float all) {
-    noise /= all;
-    share /= all * all;
-  }
-};
 
 ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, const PathSums& sums,
                                Estimate estimate)
@@ -148,6 +102,7 @@ ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, co
   detail_.resize(pixels);
   powers_.resize(pixels);
   nextPowers_.resize(pixels);
+  pictureDetail_.resize(pixels);
   noise_.resize(pixels);
   nextNoise_.resize(pixels);
   steps_.push_back([this](Rows rows) { begin(rows); });
@@ -276,8 +231,28 @@ void ResidualFilter::addBorders(Rows rows) {
                           ? static_cast<float>(std::clamp(borderCommon_ / borderPower_, 0.0, 1.0))
                           : 0.0f;
   forRows(rows, [&](size_t i) {
-    if (guides_.normal[i] == vec3(0.0f)) residual_.pixels[i] = share * (mean(i) - known(i));
+    if (guides_.normal[i] != vec3(0.0f)) return;
+    residual_.pixels[i] = std::max(share, borderShare(i)) * (mean(i) - known(i));
   });
+}
+
+// Of the borders around a pixel: bars of a window that are thinner than a pixel show in both halves
+// alike.
+float ResidualFilter::borderShare(size_t pixel) const {
+  const auto width = static_cast<size_t>(guides_.width);
+  const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
+  float common = 0.0f, power = 0.0f, noise = 0.0f;
+  for (int v = std::max(y - kBorderRadius, 0); v <= std::min(y + kBorderRadius, guides_.height - 1);
+       ++v)
+    for (int u = std::max(x - kBorderRadius, 0);
+         u <= std::min(x + kBorderRadius, guides_.width - 1); ++u) {
+      const size_t k = static_cast<size_t>(v) * width + static_cast<size_t>(u);
+      if (guides_.normal[k] != vec3(0.0f)) continue;
+      common += glm::dot(tame_[k].first, tame_[k].second);
+      power += squareOf(tame_[k].mean());
+      noise += squareOf(tame_[k].half());
+    }
+  return power > 0.0f ? std::clamp((common - kBorderVariances * noise) / power, 0.0f, 1.0f) : 0.0f;
 }
 
 void ResidualFilter::takeBounds(Rows rows) {
@@ -318,11 +293,13 @@ void ResidualFilter::beginBands(Rows rows) {
     const vec3 all = mean(i) - known(i);
     sums_[i] = {{albedo * tame_[i].first, albedo * tame_[i].second},
                 albedo * (all - tame_[i].mean()),
+                albedo * live_.pixels[i],
                 albedo * albedo,
                 1.0f};
   });
   if (rows.last < guides_.height) return;
   smooth_ = tame_;
+  smoothPicture_ = live_.pixels;
   bounds_ = {};
   nextBounds_ = {};
 }
@@ -335,8 +312,10 @@ void ResidualFilter::takeDetail(int band, Rows rows) {
     const Halves detail{smooth_[i].first - now.first, smooth_[i].second - now.second};
     smooth_[i] = now;
     detail_[i] = detail;
-    powers_[i] = {glm::dot(detail.first, detail.second), squareOf(detail.mean()),
-                  squareOf(detail.half()), 1.0f};
+    const vec3 picture = scale * sums_[i].picture;
+    pictureDetail_[i] = smoothPicture_[i] - picture;
+    smoothPicture_[i] = picture;
+    powers_[i] = BandPowers(detail, pictureDetail_[i]);
   });
   weighBand(band, rows);
 }
@@ -347,8 +326,8 @@ void ResidualFilter::takeBase(Rows rows) {
     const vec3 excess = guides_.albedo[i] / sums_[i].squares * sums_[i].excess;
     variance_[i] = sums_[i].variance;
     detail_[i] = {smooth_[i].first + excess, smooth_[i].second + excess};
-    powers_[i] = {glm::dot(detail_[i].first, detail_[i].second), squareOf(detail_[i].mean()),
-                  squareOf(detail_[i].half()), 1.0f};
+    powers_[i] = BandPowers(detail_[i]);
+    pictureDetail_[i] = vec3(0.0f);
   });
   weighBand(kBands, rows);
 }
@@ -370,10 +349,11 @@ float ResidualFilter::error() const {
 
 void ResidualFilter::addBand(int band, Rows rows) {
   const float paths = paths_.weight;
+  const bool isFine = band < kFineBands;
   const Doubt& doubt = estimate_ == Estimate::residual ? kResidualDoubt
-                       : band < kFineBands             ? kFineDoubt
+                       : isFine                        ? kFineDoubt
                                                        : kCoarseDoubt;
-  const float wrong = band < kFineBands ? 0.0f : std::min(band_.share() / kWrong, 1.0f);
+  const float wrong = isFine ? 0.0f : std::min(band_.share() / kWrong, 1.0f);
   const float usualPixels = (1.0f - wrong) * (doubt.usualPixels + kUsualPaths / paths);
   const float variances = doubt.variances * glm::mix(1.0f, kWrongVariances, wrong);
   const float leastPaths = glm::mix(kLeastPaths, kWrongPaths, wrong);
@@ -382,14 +362,20 @@ void ResidualFilter::addBand(int band, Rows rows) {
   const auto usualNoise =
       surfaceLight_ > 0.0 ? static_cast<float>(surfaceNoise_ / surfaceLight_) : 0.0f;
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
-    const float usual = usualNoise * squareOf(live_.pixels[i]) * variance_[i];
-    const float pixels = 1.0f / noise_[i].share;
-    const float noise = (pixels * noise_[i].noise + usualPixels * usual) / (pixels + usualPixels);
-    const Powers& p = powers_[i];
+    const BandPowers& p = powers_[i];
     if (!(p.mean > 0.0f)) return;
-    const float shown = std::clamp(0.5f * (paths / variance_[i] / leastPaths - 1.0f), 0.0f, 1.0f);
-    const float share = std::clamp((p.common - variances * noise) / p.mean, 0.0f, 1.0f);
-    residual_.pixels[i] += shown * share * detail_[i].mean();
+    const float behind = paths / variance_[i];
+    const float sure =
+        isFine && estimate_ == Estimate::truth ? many(behind, kAgreePaths) * sureness(p) : 0.0f;
+    const float usual = usualNoise * squareOf(live_.pixels[i]) * variance_[i];
+    const float pixels = 1.0f / noise_[i].share, more = (1.0f - sure) * usualPixels;
+    const float noise = (pixels * noise_[i].noise + more * usual) / (pixels + more);
+    const float doubted = variances * glm::mix(1.0f, kWrongVariances, sure) * noise;
+    const float shown = std::max(many(behind, leastPaths), sure) *
+                        std::clamp((p.common - doubted) / p.mean, 0.0f, 1.0f);
+    residual_.pixels[i] += shown * detail_[i].mean();
+    if (estimate_ == Estimate::truth)
+      residual_.pixels[i] += (1.0f - shown) * slopeOverPicture(p, noise) * pictureDetail_[i];
   });
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "renderer/path_repair/filter_sums.h"
 #include "renderer/path_repair/path_sums.h"
 #include "renderer/path_repair/repair_guides.h"
 #include "renderer/path_repair/surface_mean.h"
@@ -15,7 +16,7 @@ namespace lamplighter {
 // over normals, planes and albedo. Each band is weighed at each pixel by the share of its power
 // that both halves have in common (Wiener); what one has alone is noise. The more paths, the more
 // of the detail is shown: in the limit all. Where the noise hides a residual, the picture stays as
-// it is.
+// it is, but for patterns of the picture that the paths around do not have at all.
 class ResidualFilter {
  public:
   // What paths are an estimate of: the truth, or its difference to the picture.
@@ -37,10 +38,6 @@ class ResidualFilter {
   Image takeResidual() { return std::move(residual_); }
 
  private:
-  struct Sums;
-  struct Bounds;
-  struct Powers;
-  struct Noise;
   using Step = std::function<void(Rows)>;
   template <typename T>
   void planMeans(std::vector<T>& of, std::vector<T>& next, int step);
@@ -56,6 +53,7 @@ class ResidualFilter {
   double weight(size_t pixel) const;
   void weighBorders(Rows rows);
   void addBorders(Rows rows);
+  float borderShare(size_t pixel) const;
   void takeBounds(Rows rows);
   void tame(Rows rows);
   void beginBands(Rows rows);
@@ -82,10 +80,11 @@ class ResidualFilter {
   double error_ = 0.0;                             // its square, times the pixels
   float windowVariances_ = 0.0f;
   std::vector<Halves> tame_, smooth_, detail_;  // tame_: all light but single bright paths
-  std::vector<Bounds> bounds_, nextBounds_;
-  std::vector<Sums> sums_, nextSums_;
-  std::vector<Powers> powers_, nextPowers_;
-  std::vector<Noise> noise_, nextNoise_;
+  std::vector<vec3> smoothPicture_, pictureDetail_;
+  std::vector<ResidualBounds> bounds_, nextBounds_;
+  std::vector<ResidualSums> sums_, nextSums_;
+  std::vector<BandPowers> powers_, nextPowers_;
+  std::vector<BandNoise> noise_, nextNoise_;
   std::vector<float> variance_;      // of the last means, with that of a pixel 1
   std::vector<float> fineVariance_;  // after the fine bands
 };

@@ -277,6 +277,55 @@ TEST_F(Residuals, WhatShowsNoSurfaceTakesItsOwnPaths) {
   EXPECT_LT(errorRepaired(), 1e-4);
 }
 
+// Bars of a window that the picture does not have: few of all pixels that show no surface.
+TEST_F(Residuals, ThinBarsAreShownThoughOtherBordersAreNoise) {
+  RepairGuides sky = guides;
+  sky.normal.assign(sky.normal.size(), vec3(0.0f));
+  trace(16, 4);
+  constexpr int kWindow = 32, kBar = 16;  // left of it the paths show a window without noise
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWindow; ++x) {
+      const auto i = static_cast<size_t>(y * kWidth + x);
+      sums.first.pixels[i] = sums.second.pixels[i] = 8.0f * truth.pixels[i];
+      if (x == kBar) live.pixels[i] = 1.5f * truth.pixels[i];
+    }
+  const Image residual = residualOf(sky);
+  for (int y = 0; y < kHeight; ++y)
+    EXPECT_NEAR(residual.at(kBar, y).x, -0.5f * truth.at(kBar, y).x, 1e-3f);
+  double noise = 0.0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 2 * kWindow; x < kWidth; ++x)
+      noise += static_cast<double>(std::abs(residual.at(x, y).x) / truth.at(x, y).x);
+  EXPECT_LT(noise / (kHeight * (kWidth - 2 * kWindow)), 0.05);
+}
+
+// Few paths, whose noise is larger than a pattern of the picture, tell that the pattern is wrong.
+TEST_F(Residuals, APatternOfThePictureThatPathsDoNotHaveVanishes) {
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) live.at(x, y) *= (x / 2 + y / 2) % 2 == 0 ? 1.4f : 0.6f;
+  const double before = errorOf(live);
+  trace(8, 2);
+  const double after = errorOf(repaired());
+  RecordProperty("share", std::to_string(after / before));
+  EXPECT_LT(after, 0.5 * before);
+  EXPECT_LT(after, 0.75 * errorOf(meanOfPaths()));
+}
+
+// Where the pixels around agree, detail is shown with fewer paths than elsewhere: a mirror image.
+TEST_F(Residuals, DetailInWhichPixelsAgreeIsShownWithFewPaths) {
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      live.at(x, y) = vec3(0.5f) * guides.albedo[static_cast<size_t>(y * kWidth + x)];
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      truth.at(x, y) =
+          guides.albedo[static_cast<size_t>(y * kWidth + x)] * (x / 6 % 2 == 0 ? 4.0f : 0.5f);
+  trace(4, 1);
+  const double error = errorOf(repaired());
+  RecordProperty("error", std::to_string(error));
+  EXPECT_LT(error, 0.25 * errorOf(live));
+}
+
 // With few paths, pixels without neighbours are scaled as those around them.
 TEST_F(Residuals, PixelsWithoutNeighboursFollowTheirSurroundings) {
   const RepairGuides leaves = leavesLike(guides);

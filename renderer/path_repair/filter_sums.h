@@ -1,0 +1,117 @@
+// What ResidualFilter takes weighted means of (surface_mean.h), by pixel.
+#pragma once
+
+#include <algorithm>
+
+#include "renderer/base/math.h"
+#include "renderer/path_repair/halves.h"
+
+namespace lamplighter {
+
+// Residuals and the picture times albedo, and the square of albedo: their quotients are those of a
+// white surface, by least squares.
+struct ResidualSums {
+  // Neighbours in a coarse band share paths: their mean has so much more variance than that of
+  // independent ones.
+  static constexpr float kCorrelation = 1.78f;
+
+  Halves tame;
+  vec3 excess{0.0f};  // of both halves: what was bounded, which only the widest mean gets
+  vec3 picture{0.0f};
+  vec3 squares{0.0f};
+  float variance = 1.0f;  // of the mean, with the variance of a pixel 1
+
+  static ResidualSums nothing() { return {{}, vec3(0.0f), vec3(0.0f), vec3(0.0f), 0.0f}; }
+  void add(float w, const ResidualSums& s) {
+    tame.first += w * s.tame.first;
+    tame.second += w * s.tame.second;
+    excess += w * s.excess;
+    picture += w * s.picture;
+    squares += w * s.squares;
+    variance += kCorrelation * w * w * s.variance;
+  }
+  void divide(float all) {
+    const float scale = 1.0f / all;
+    tame.first *= scale;
+    tame.second *= scale;
+    excess *= scale;
+    picture *= scale;
+    squares *= scale;
+    variance = std::min(variance * scale * scale, 1.0f);
+  }
+};
+
+// Squares of the usual difference between the halves and of the usual residual, of a white surface.
+struct ResidualBounds {
+  float difference = 0.0f, residual = 0.0f;
+
+  static ResidualBounds nothing() { return {}; }
+  void add(float w, const ResidualBounds& b) {
+    difference += w * b.difference;
+    residual += w * b.residual;
+  }
+  void divide(float all) {
+    difference /= all;
+    residual /= all;
+  }
+};
+
+// Of a band of the residual: what both halves have in common, the power of their mean, its noise.
+struct BandPowers {
+  float common = 0.0f, mean = 0.0f, noise = 0.0f;
+  float share = 1.0f;  // sum of squared weights: one by the number of independent pixels
+  // The common share of each pixel, -1 to 1: single bright paths count no more than others.
+  float agreement = 0.0f;
+  // The power of the same band of the picture, and its product with the residual.
+  float picture = 0.0f, withPicture = 0.0f;
+
+  BandPowers() = default;
+  explicit BandPowers(const Halves& detail, const vec3& ofPicture = vec3(0.0f))
+      : common(glm::dot(detail.first, detail.second)),
+        mean(glm::dot(detail.mean(), detail.mean())),
+        noise(glm::dot(detail.half(), detail.half())),
+        agreement(mean + noise > 0.0f ? common / (mean + noise) : 0.0f),
+        picture(glm::dot(ofPicture, ofPicture)),
+        withPicture(glm::dot(ofPicture, detail.mean())) {}
+
+  static BandPowers nothing() {
+    BandPowers p;
+    p.share = 0.0f;
+    return p;
+  }
+  void add(float w, const BandPowers& p) {
+    common += w * p.common;
+    mean += w * p.mean;
+    noise += w * p.noise;
+    share += w * w * p.share;
+    agreement += w * p.agreement;
+    picture += w * p.picture;
+    withPicture += w * p.withPicture;
+  }
+  void divide(float all) {
+    const float scale = 1.0f / all;
+    common *= scale;
+    mean *= scale;
+    noise *= scale;
+    share *= scale * scale;
+    agreement *= scale;
+    picture *= scale;
+    withPicture *= scale;
+  }
+};
+
+struct BandNoise {
+  float noise = 0.0f, share = 1.0f;  // as BandPowers
+
+  static BandNoise nothing() { return {0.0f, 0.0f}; }
+  void add(float w, const BandNoise& n) {
+    noise += w * n.noise;
+    share += w * w * n.share;
+  }
+  void divide(float all) {
+    noise /= all;
+    share /= all * all;
+  }
+};
+
+}  // namespace lamplighter
