@@ -18,6 +18,7 @@ void FramePacer::renderFrame(Session& session) {
                         {.inBackground = true,
                          .refineUpdates = work.refineUpdates,
                          .previewUpdates = work.previewUpdates,
+                         .previewFrames = work.previewFrames,
                          .surfaceWork = work.surfaces});
   }
   control_.measured(session.output().stats);

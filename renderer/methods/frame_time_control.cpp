@@ -20,7 +20,7 @@ constexpr double kFirstUpdates = 64.0;
 // The share of the limit that each kind of work gets at least. Without it, light on surfaces would
 // leave nothing to the direct light of a dragged lamp, which would lag behind.
 constexpr double kLeastShare = 0.25;
-// The share of the limit for paths that repair a picture before it has settled. A larger one would
+// The share of the time for paths that repair a picture before it has settled. A larger one would
 // delay the picture itself.
 constexpr double kPreviewShare = 0.7;
 
@@ -63,8 +63,10 @@ void FrameTimeControl::measured(const GiStats& stats) {
   updates_.measured(stats.updates, ofUpdates, all);
   surfaces_.measured(static_cast<double>(stats.surfaceWork), ofSurfaces, all);
   refinement_.measured(stats.refineUpdates, all, all);
-  preview_.measured(stats.previewUpdates, ofPreview, all);
-  if (stats.updates == 0 && stats.surfaceWork == 0.0f) return;
+  if (stats.updates == 0 && stats.surfaceWork == 0.0f) {
+    preview_.measured(stats.previewUpdates, ofPreview, all);
+    return;
+  }
   average(ofUpdates_, ofUpdates);
   average(ofSurfaces_, ofSurfaces);
   average(rest_, all - ofUpdates - ofSurfaces);
@@ -82,8 +84,11 @@ FrameTimeControl::Work FrameTimeControl::within(double seconds) {
                                           kMostSurfaceWork, kLeastSurfaceWork));
   work.refineUpdates = static_cast<int>(
       refinement_.within(seconds, seconds, kLeastUpdates, kMostUpdates, kLeastUpdates));
-  work.previewUpdates = static_cast<int>(preview_.within(
-      kPreviewShare * seconds, seconds, kLeastUpdates, kMostUpdates, kFirstUpdates));
+  work.previewUpdates = static_cast<int>(
+      preview_.within(seconds, seconds, kLeastUpdates, kMostUpdates, kFirstUpdates));
+  const double ofMethod = ofUpdates_ + ofSurfaces_ + rest_;
+  const double frames = kPreviewShare / (1.0 - kPreviewShare) * ofMethod / seconds;
+  work.previewFrames = std::max(static_cast<int>(std::lround(frames)), 1);
   return work;
 }
 

@@ -2,6 +2,7 @@
 // missing, as far as their noise allows to tell. It converges to the reference.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -34,8 +35,11 @@ class PathRepair {
   // After goOn() with these options: whether image() has all paths.
   bool isDone(const Options& options) const;
   bool hasBegun() const { return live_ != nullptr; }
-  // Of a preview: whether the picture is so wrong, and the paths are so few, that more of them pay.
-  bool isUrgent() const { return isWrong_ && whole_.paths < kQuickPaths; }
+  // Of a preview with so many paths in the end: whether the picture is so wrong, and the paths are
+  // so few, that more of them pay.
+  bool isUrgent(int wanted) const {
+    return isWrong_ && whole_.paths < std::min(wanted, kQuickPaths);
+  }
   int paths() const { return whole_.paths + ended_.paths; }  // of each pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }
   // Null until there is one. If it is not of a preview, its bits depend on the number of paths

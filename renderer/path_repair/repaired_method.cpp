@@ -68,15 +68,21 @@ class RepairedMethod final : public GiMethod {
     const int wanted = mayRepair ? repairParameters().read(in.settings).repair : 0;
     // The halves have as many paths each.
     const PathRepair::Options options{wanted / 2 * 2, pathsOf(in)};
-    GiOutput out = renderMethod(in, options.paths > 0);
-    const double start = in.stopwatch ? in.stopwatch() : 0.0;
-    RepairStats stats;
     const bool isStill = in.changes.none() && in.view == view_;
-    resolveEdges(in, options.paths > 0, out, stats);
+    const bool skipsMethod = isStill && mayRepairAlone(in, options.paths);
+    RepairStats stats;
+    GiOutput out = skipsMethod ? idle() : renderMethod(in, options.paths > 0);
+    const double start = in.stopwatch ? in.stopwatch() : 0.0;
+    if (skipsMethod) {
+      --framesAlone_;
+    } else {
+      resolveEdges(in, options.paths > 0, out, stats);
+      keep(in, isStill, out);
+    }
     if (options.paths > 0 && out.settled)
       repair(in, options, out, stats);
     else if (options.paths > 0 && isStill && mayPreview(in, out))
-      preview(in, options, out, stats);
+      preview(in, options, skipsMethod, out, stats);
     else
       repair_.restart();
     if (in.stopwatch) out.stats.stageSeconds.push_back({kRepairStage, in.stopwatch() - start});
@@ -89,6 +95,7 @@ class RepairedMethod final : public GiMethod {
     method_->reset();
     repair_.restart();
     edges_.restart();
+    last_ = {};
   }
   Inspection inspect() const override { return method_->inspect(); }
 
@@ -100,6 +107,41 @@ class RepairedMethod final : public GiMethod {
     settings.set("refine", 0);
     return method_->render({in.scene, in.changes, in.view, in.backend, in.services, settings,
                             in.frame, in.stopwatch, in.stageTimes, in.lightOnly, in.part});
+  }
+
+  // What a frame without the method shows may depend on everything but the budget.
+  static Settings withoutBudget(Settings settings) {
+    settings.reset(kUpdates);
+    return settings;
+  }
+
+  // After an edit the method gets another frame at once.
+  void keep(const FrameInputs& in, bool isStill, const GiOutput& out) {
+    last_ = out;
+    settings_ = withoutBudget(in.settings);
+    isLightOnly_ = in.lightOnly;
+    framesAlone_ = isStill || in.changes.rebuilt ? in.services.budget().previewFrames : 0;
+  }
+
+  // Whether this frame may leave the picture as the method drew it last, and only trace paths.
+  bool mayRepairAlone(const FrameInputs& in, int paths) const {
+    return framesAlone_ > 0 && last_.radiance && !last_.settled && mayPreview(in, last_) &&
+           repair_.isUrgent(paths) && isLightOnly_ == in.lightOnly &&
+           settings_ == withoutBudget(in.settings);
+  }
+
+  // The last output of the method, without the work of that frame.
+  GiOutput idle() const {
+    GiOutput out = last_;
+    GiStats& s = out.stats;
+    s.updates = s.refineUpdates = s.previewUpdates = 0;
+    s.surfaceWork = 0.0f;
+    s.raysTraced = 0;
+    for (StageTime& t : s.stageSeconds) t.seconds = 0.0;
+    for (Statistic& of : s.declared)
+      if (of.spec->kind == StatisticKind::work) of.value = 0.0;
+    out.failure = nullptr;
+    return out;
   }
 
   void repair(const FrameInputs& in, const PathRepair::Options& options, GiOutput& out,
@@ -117,14 +159,16 @@ class RepairedMethod final : public GiMethod {
            (repair_.hasBegun() || out.stats.framesUntilSettled >= kManyFrames);
   }
 
-  // The first image gets twice the budget, so that it is there soon. When more paths are not
-  // urgent, few rows are traced, so that the picture settles.
-  void preview(const FrameInputs& in, PathRepair::Options options, GiOutput& out,
+  // When more paths are not urgent, few rows are traced, so that the picture settles. If they are,
+  // they are traced in frames without the method.
+  void preview(const FrameInputs& in, PathRepair::Options options, bool isAlone, GiOutput& out,
                RepairStats& stats) {
     options.isPreview = true;
     int rows = in.services.budget().previewUpdates;
-    if (!repair_.image()) rows *= 2;
-    if (!repair_.isUrgent()) rows = std::min(rows, kSlowRows);
+    if (!repair_.isUrgent(options.paths))
+      rows = std::min(rows, kSlowRows);
+    else if (!isAlone && framesAlone_ > 0)
+      rows = 0;
     out.stats.previewUpdates = repair_.goOn(in, options, out.radiance, nullptr, rows);
     if (repair_.image()) out.radiance = repair_.image();
     stats = {repair_.paths(), options.paths, stats.rays + repair_.takeRays()};
@@ -149,6 +193,12 @@ class RepairedMethod final : public GiMethod {
   PathRepair repair_;
   EdgeResolve edges_;
   View view_;  // of the last frame
+  // The last output of the method, with smooth edges, and what it is of; how many frames may show
+  // it again.
+  GiOutput last_;
+  Settings settings_;
+  bool isLightOnly_ = false;
+  int framesAlone_ = 0;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Repaired : testing::Test, test::SmallRoom {
   std::unique_ptr<FrameRenderer> renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
   int rows = 64;        // of paths, in a frame
   int previewRows = 0;  // before the picture has settled
+  int previewFrames = 0;
 
   Repaired() {
     settings.set("vpls", 60);
@@ -36,7 +37,9 @@ struct Repaired : testing::Test, test::SmallRoom {
                              method,
                              settings,
                              false,
-                             {.refineUpdates = repairs ? rows : 0, .previewUpdates = previewRows}});
+                             {.refineUpdates = repairs ? rows : 0,
+                              .previewUpdates = previewRows,
+                              .previewFrames = previewFrames}});
   }
   GiOutput rest(const SceneChanges& changes, bool repairs = true) {
     GiOutput out = step(changes, repairs);
@@ -173,6 +176,36 @@ TEST_F(Repaired, PreviewsThePictureBeforeItSettles) {
     EXPECT_EQ(edited.stats.of("paths_repaired"), 0.0) << carrier;
     scene.find(box)->local.translation.z -= 0.1f;
   }
+}
+
+// Frames that only trace paths: the method works in one of four, until there are enough of them.
+TEST_F(Repaired, FramesOfPathsAloneLeaveFreshBits) {
+  settings.set("updates", 4);
+  const Image settled = fresh();
+  renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
+  previewRows = 24;
+  previewFrames = 3;
+  step(SceneChanges::all());
+  for (int frame = 0; frame < 12; ++frame) {
+    const bool isOfMethod = frame % 4 == 3;
+    const GiOutput out = step();
+    ASSERT_FALSE(out.settled);
+    EXPECT_EQ(out.stats.updates > 0, isOfMethod) << frame;
+    EXPECT_EQ(out.stats.previewUpdates > 0, !isOfMethod) << frame;
+  }
+  // So is the edit, and the first frame after it.
+  const auto moveBox = [&](float by) {
+    return edit([&](Scene& s) { s.find(box)->local.translation.z += by; });
+  };
+  EXPECT_GT(step(moveBox(0.1f)).stats.updates, 0);
+  EXPECT_GT(step().stats.updates, 0);
+  EXPECT_EQ(step().stats.updates, 0);
+  settings.set("updates", 5);  // a budget
+  EXPECT_EQ(step().stats.updates, 0);
+  settings.set("bounces", kBounces - 1);
+  EXPECT_GT(step().stats.updates, 0);
+  settings.set("bounces", kBounces);
+  EXPECT_TRUE(sameBits(rest(moveBox(-0.1f)).radiance->pixels(), settled));
 }
 
 // Nor while the camera moves.
