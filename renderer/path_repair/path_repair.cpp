@@ -181,6 +181,7 @@ void PathRepair::show(const Image& residual) {
     out.pixels[i] = glm::max(out.pixels[i] + residual.pixels[i], vec3(0.0f));
   repaired_ = std::make_shared<HostImage>(std::move(out));
   shown_ = paths();
+  mostShown_ = std::max(mostShown_, shown_);
 }
 
 }  // namespace lamplighter

@@ -36,9 +36,10 @@ class PathRepair {
   bool isDone(const Options& options) const;
   bool hasBegun() const { return live_ != nullptr; }
   // Of a preview with so many paths in the end: whether the picture is so wrong, and the paths are
-  // so few, that more of them pay.
+  // so few, that more of them pay, or are not shown yet.
   bool isUrgent(int wanted) const {
-    return isWrong_ && whole_.paths < std::min(wanted, kQuickPaths);
+    const bool isNew = filter_ && mostShown_ < whole_.paths;
+    return isWrong_ && (whole_.paths < std::min(wanted, kQuickPaths) || isNew);
   }
   int paths() const { return whole_.paths + ended_.paths; }  // of each pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }
@@ -73,7 +74,7 @@ class PathRepair {
   std::unique_ptr<ResidualFilter> filter_;  // of missing_, then of all_; or of whole_
   std::optional<Image> lacking_;            // what known light lacks, while all_ is filtered
   PathSums all_;                            // of whole_, without lacking_, and of ended_
-  int shown_ = 0;                           // paths of repaired_
+  int shown_ = 0, mostShown_ = 0;           // paths of repaired_, of this picture and of any
   uint64_t rays_ = 0;
   std::shared_ptr<RadianceImage> repaired_;
 };

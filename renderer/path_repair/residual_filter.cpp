@@ -56,7 +56,7 @@ constexpr float kWindowSamples = 600.0f;
 constexpr int kLeastRadius = 2, kMostRadius = 8;  // of the window [pixels]
 // With fewer paths than the first, these pixels are rather scaled as those around them, and with
 // fewer than the second they rather stay as they are.
-constexpr float kWindowPaths = 8.0f, kOwnPaths = 16.0f;
+constexpr float kWindowPaths = 32.0f, kOwnPaths = 32.0f;
 
 float squareOf(const vec3& v) { return glm::dot(v, v); }
 

@@ -150,8 +150,12 @@ uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
   return traced;
 }
 
-// Averages each pixel with those of the same reflection, `step` pixels apart.
+// Averages each pixel with those of the same reflection, `step` pixels apart. The weights of step 1
+// add up the 4 × 4 pixels that share a sequence, wherever they begin; step 4 adds up such means.
+// Other steps leave a grid.
 void PixelLobes::average(const std::vector<vec3>& from, int step, std::vector<vec3>& to) const {
+  constexpr std::array<float, 5> kSequence{0.5f, 1.0f, 1.0f, 1.0f, 0.5f};
+  const int reach = step == 1 ? 2 : 1;
   tbb::parallel_for(0, view_.height, [&](int y) {
     for (int x = 0; x < view_.width; ++x) {
       const size_t i =
@@ -161,20 +165,26 @@ void PixelLobes::average(const std::vector<vec3>& from, int step, std::vector<ve
       if (guide.radius <= static_cast<float>(step)) continue;
       vec3 sum = from[i];
       float weights = 1.0f;
-      for (int k = 0; k < 25; ++k) {
-        const int dx = step * (k % 5 - 2), dy = step * (k / 5 - 2);
-        const int ox = x + dx, oy = y + dy;
-        if (k == 12 || ox < 0 || oy < 0 || ox >= view_.width || oy >= view_.height) continue;
-        const size_t other =
-            static_cast<size_t>(oy) * static_cast<size_t>(view_.width) + static_cast<size_t>(ox);
-        const Guide& o = guides_[other];
-        if (o.object != guide.object || o.normal == vec3(0.0f)) continue;
-        const float turn = 1.0f - kLobeTurn * (1.0f - glm::dot(guide.normal, o.normal));
-        const float far = static_cast<float>(dx * dx + dy * dy) / (guide.radius * guide.radius);
-        const float weight = std::max(0.0f, turn) * std::max(0.0f, 1.0f - far);
-        sum += weight * from[other];
-        weights += weight;
-      }
+      for (int v = -reach; v <= reach; ++v)
+        for (int u = -reach; u <= reach; ++u) {
+          const int dx = step * u, dy = step * v;
+          const int ox = x + dx, oy = y + dy;
+          if ((u == 0 && v == 0) || ox < 0 || oy < 0 || ox >= view_.width || oy >= view_.height)
+            continue;
+          const size_t other =
+              static_cast<size_t>(oy) * static_cast<size_t>(view_.width) + static_cast<size_t>(ox);
+          const Guide& o = guides_[other];
+          if (o.object != guide.object || o.normal == vec3(0.0f)) continue;
+          const float turn = 1.0f - kLobeTurn * (1.0f - glm::dot(guide.normal, o.normal));
+          const float far = static_cast<float>(dx * dx + dy * dy) / (guide.radius * guide.radius);
+          float near = std::max(0.0f, 1.0f - far);
+          if (step == 1)
+            near = std::min(2.0f * near, 1.0f) * kSequence[static_cast<size_t>(u + 2)] *
+                   kSequence[static_cast<size_t>(v + 2)];
+          const float weight = std::max(0.0f, turn) * near;
+          sum += weight * from[other];
+          weights += weight;
+        }
       to[i] = sum / weights;
     }
   });
@@ -204,7 +214,7 @@ void PixelLobes::addTo(const RenderScene& scene, const MirroredLight& light, Ima
     if (count > 0.0f) seen[i] /= count;
   });
   average(seen, 1, averaged);
-  average(averaged, 3, seen);
+  average(averaged, 4, seen);
   const float scale = 1.0f / (kPackedMost * static_cast<float>(added_));
   each([&](size_t i) {
     vec3 reflectance(0.0f);
