@@ -74,7 +74,7 @@ class RepairedMethod final : public GiMethod {
     GiOutput out = skipsMethod ? idle() : renderMethod(in, options.paths > 0);
     const double start = in.stopwatch ? in.stopwatch() : 0.0;
     if (skipsMethod) {
-      --framesAlone_;
+      ++framesAlone_;
     } else {
       resolveEdges(in, options.paths > 0, out, stats);
       keep(in, isStill, out);
@@ -96,6 +96,7 @@ class RepairedMethod final : public GiMethod {
     repair_.restart();
     edges_.restart();
     last_ = {};
+    mayBeSkipped_ = false;
   }
   Inspection inspect() const override { return method_->inspect(); }
 
@@ -120,13 +121,14 @@ class RepairedMethod final : public GiMethod {
     last_ = out;
     settings_ = withoutBudget(in.settings);
     isLightOnly_ = in.lightOnly;
-    framesAlone_ = isStill || in.changes.rebuilt ? in.services.budget().previewFrames : 0;
+    framesAlone_ = 0;
+    mayBeSkipped_ = isStill || in.changes.rebuilt;
   }
 
   // Whether this frame may leave the picture as the method drew it last, and only trace paths.
   bool mayRepairAlone(const FrameInputs& in, int paths) const {
-    return framesAlone_ > 0 && last_.radiance && !last_.settled && mayPreview(in, last_) &&
-           repair_.isUrgent(paths) && isLightOnly_ == in.lightOnly &&
+    return mayBeSkipped_ && framesAlone_ < in.services.budget().previewFrames && !last_.settled &&
+           mayPreview(in, last_) && repair_.isUrgent(paths) && isLightOnly_ == in.lightOnly &&
            settings_ == withoutBudget(in.settings);
   }
 
@@ -167,7 +169,7 @@ class RepairedMethod final : public GiMethod {
     int rows = in.services.budget().previewUpdates;
     if (!repair_.isUrgent(options.paths))
       rows = std::min(rows, kSlowRows);
-    else if (!isAlone && framesAlone_ > 0)
+    else if (!isAlone && in.services.budget().previewFrames > 0)
       rows = 0;
     out.stats.previewUpdates = repair_.goOn(in, options, out.radiance, nullptr, rows);
     if (repair_.image()) out.radiance = repair_.image();
@@ -193,11 +195,11 @@ class RepairedMethod final : public GiMethod {
   PathRepair repair_;
   EdgeResolve edges_;
   View view_;  // of the last frame
-  // The last output of the method, with smooth edges, and what it is of; how many frames may show
-  // it again.
+  // The last output of the method, with smooth edges, and what it is of; whether it may be shown
+  // again, and by how many frames it was.
   GiOutput last_;
   Settings settings_;
-  bool isLightOnly_ = false;
+  bool isLightOnly_ = false, mayBeSkipped_ = false;
   int framesAlone_ = 0;
 };
 
