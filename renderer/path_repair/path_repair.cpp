@@ -31,9 +31,11 @@ constexpr int kFilterRows = 48;
 // repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
-// Whether the picture after so many paths is filtered: always half as many more than the last.
-bool isShown(int paths, int last, int all) {
-  return paths % 2 == 0 && (paths >= all || 2 * paths >= 3 * last);
+// Whether the picture after so many paths is filtered: always half as many more than the last. The
+// few paths of a preview take little longer than the filter, so it shows 2, 4, 8, 12 and 16.
+bool isShown(int paths, int last, int all, bool isPreview) {
+  const int next = isPreview ? std::min(2 * last, last + 4) : (3 * last + 1) / 2;
+  return paths % 2 == 0 && (paths >= all || paths >= next);
 }
 
 }  // namespace
@@ -127,7 +129,7 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
   row_ = 0;
   (ends ? ended_ : whole_).endPath();
   if (goesOn) missing_.endPath();
-  if (isShown(paths(), shown_, options.paths)) beginFilter();
+  if (isShown(paths(), shown_, options.paths, options.isPreview)) beginFilter();
   return rows;
 }
 

@@ -19,7 +19,7 @@ constexpr uint32_t kLobeSet = 0x10be;
 constexpr float kTraced = 0.45f, kEven = 0.65f;
 // Pixels whose lobes differ by more show different reflections: normals within 13°.
 constexpr float kLobeTurn = 40.0f;
-constexpr float kLeastRadius = 2.5f, kMostRadius = 8.0f;  // pixels
+constexpr float kLeastRadius = 2.5f, kMostRadius = 24.0f;  // pixels
 // With one ray for each pixel: wide enough to average the 4 × 4 pixels that share a sequence.
 constexpr float kLeastRadiusOfOne = 5.0f;
 // The rest of a lobe, its wide tail, is taken as the part before it: few rays find a window there,
@@ -150,10 +150,41 @@ uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
   return traced;
 }
 
+// The radii are of single rays: near the legs of a table some meet the legs, and others what is far
+// behind. Harmonic means over pixels around, so that what is near stays sharp.
+std::vector<float> PixelLobes::evenRadii() const {
+  constexpr int kReach = 3;
+  std::vector<float> radii(guides_.size(), 0.0f), inRows(guides_.size(), 0.0f);
+  const auto meanAlong = [&](const auto& radiusAt, int dx, int dy, std::vector<float>& to) {
+    tbb::parallel_for(0, view_.height, [&](int y) {
+      for (int x = 0; x < view_.width; ++x) {
+        const size_t i =
+            static_cast<size_t>(y) * static_cast<size_t>(view_.width) + static_cast<size_t>(x);
+        if (guides_[i].radius <= 0.0f) continue;
+        float inverse = 0.0f, count = 0.0f;
+        for (int k = -kReach; k <= kReach; ++k) {
+          const int u = x + k * dx, v = y + k * dy;
+          if (u < 0 || v < 0 || u >= view_.width || v >= view_.height) continue;
+          const size_t other =
+              static_cast<size_t>(v) * static_cast<size_t>(view_.width) + static_cast<size_t>(u);
+          if (guides_[other].radius <= 0.0f || guides_[other].object != guides_[i].object) continue;
+          inverse += 1.0f / radiusAt(other);
+          count += 1.0f;
+        }
+        to[i] = count / inverse;
+      }
+    });
+  };
+  meanAlong([&](size_t i) { return guides_[i].radius; }, 1, 0, inRows);
+  meanAlong([&](size_t i) { return inRows[i]; }, 0, 1, radii);
+  return radii;
+}
+
 // Averages each pixel with those of the same reflection, `step` pixels apart. The weights of step 1
-// add up the 4 × 4 pixels that share a sequence, wherever they begin; step 4 adds up such means.
-// Other steps leave a grid.
-void PixelLobes::average(const std::vector<vec3>& from, int step, std::vector<vec3>& to) const {
+// add up the 4 × 4 pixels that share a sequence, wherever they begin; step 4 adds up such means,
+// and step 12 theirs. Other steps leave a grid.
+void PixelLobes::average(const std::vector<vec3>& from, const std::vector<float>& radii, int step,
+                         std::vector<vec3>& to) const {
   constexpr std::array<float, 5> kSequence{0.5f, 1.0f, 1.0f, 1.0f, 0.5f};
   const int reach = step == 1 ? 2 : 1;
   tbb::parallel_for(0, view_.height, [&](int y) {
@@ -162,7 +193,8 @@ void PixelLobes::average(const std::vector<vec3>& from, int step, std::vector<ve
           static_cast<size_t>(y) * static_cast<size_t>(view_.width) + static_cast<size_t>(x);
       const Guide& guide = guides_[i];
       to[i] = from[i];
-      if (guide.radius <= static_cast<float>(step)) continue;
+      const float radius = radii[i];
+      if (radius <= static_cast<float>(step)) continue;
       vec3 sum = from[i];
       float weights = 1.0f;
       for (int v = -reach; v <= reach; ++v)
@@ -176,7 +208,7 @@ void PixelLobes::average(const std::vector<vec3>& from, int step, std::vector<ve
           const Guide& o = guides_[other];
           if (o.object != guide.object || o.normal == vec3(0.0f)) continue;
           const float turn = 1.0f - kLobeTurn * (1.0f - glm::dot(guide.normal, o.normal));
-          const float far = static_cast<float>(dx * dx + dy * dy) / (guide.radius * guide.radius);
+          const float far = static_cast<float>(dx * dx + dy * dy) / (radius * radius);
           float near = std::max(0.0f, 1.0f - far);
           if (step == 1)
             near = std::min(2.0f * near, 1.0f) * kSequence[static_cast<size_t>(u + 2)] *
@@ -213,8 +245,10 @@ void PixelLobes::addTo(const RenderScene& scene, const MirroredLight& light, Ima
     }
     if (count > 0.0f) seen[i] /= count;
   });
-  average(seen, 1, averaged);
-  average(averaged, 4, seen);
+  const std::vector<float> radii = evenRadii();
+  average(seen, radii, 1, averaged);
+  average(averaged, radii, 4, seen);
+  average(seen, radii, 12, averaged);
   const float scale = 1.0f / (kPackedMost * static_cast<float>(added_));
   each([&](size_t i) {
     vec3 reflectance(0.0f);
@@ -222,7 +256,7 @@ void PixelLobes::addTo(const RenderScene& scene, const MirroredLight& light, Ima
       const auto& r = rays_[s * pixels + i].reflectance;
       reflectance += vec3(r[0], r[1], r[2]);
     }
-    picture.pixels[i] += scale * reflectance * seen[i];
+    picture.pixels[i] += scale * reflectance * averaged[i];
   });
 }
 

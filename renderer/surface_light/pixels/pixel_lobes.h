@@ -38,7 +38,9 @@ class PixelLobes {
     uint32_t object = 0;
     float radius = 0.0f;  // within which the lobe blurs what it shows [pixels]
   };
-  void average(const std::vector<vec3>& from, int step, std::vector<vec3>& to) const;
+  std::vector<float> evenRadii() const;
+  void average(const std::vector<vec3>& from, const std::vector<float>& radii, int step,
+               std::vector<vec3>& to) const;
 
   View view_;
   uint32_t seed_ = 0;
