@@ -116,13 +116,13 @@ class RepairedMethod final : public GiMethod {
     return settings;
   }
 
-  // After an edit the method gets another frame at once.
+  // After an edit, and in a new scene, the method gets another frame at once: it has mirrors.
   void keep(const FrameInputs& in, bool isStill, const GiOutput& out) {
     last_ = out;
     settings_ = withoutBudget(in.settings);
     isLightOnly_ = in.lightOnly;
     framesAlone_ = 0;
-    mayBeSkipped_ = isStill || in.changes.rebuilt;
+    mayBeSkipped_ = isStill;
   }
 
   // Whether this frame may leave the picture as the method drew it last, and only trace paths.
