@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
+#include "renderer/methods/path_tracer/seen_light.h"
 #include "renderer/path_repair/known_surfaces.h"
 
 namespace lamplighter {
@@ -27,7 +28,7 @@ constexpr int kSureBounces = 2;
 // So many rows of a step of the filter count as a row of paths. On average 60 to 90 take as long;
 // some steps are slower.
 constexpr int kFilterRows = 48;
-// The memory of the filter and of the sums is some 600 bytes a pixel: larger pictures are not
+// The memory of the filter and of the sums is some 700 bytes a pixel: larger pictures are not
 // repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
@@ -55,6 +56,7 @@ void PathRepair::begin(const FrameInputs& in, const Options& options) {
   guides_ = RepairGuides(in.backend.hostGBuffer(), in.view, in.lightOnly);
   lights_ = LightSet::forPaths(in.scene);
   whole_ = PathSums(in.view.width, in.view.height);
+  for (auto& half : hasLightAlone_) half.assign(pixels, 0);
 }
 
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
@@ -111,14 +113,26 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
     uint64_t traced = 0;
     for (int x = 0; x < view.width; ++x) {
       const auto i = static_cast<size_t>(y * view.width + x);
+      // Where the sky or a lamp is seen, rays tell what share of the pixel it has. Unless it is
+      // all.
+      PathTracerOptions own = path;
+      own.seesLights = !guides_.isAtLight(x, y) || (sample > 0 && hasLightAlone_[isFirst][i] != 0);
+      vec3 seen(0.0f);
+      if (!own.seesLights) {
+        const SeenLight light = seenLight(in.scene, caster, view, x, y, sample, path.seed);
+        seen = light.radiance;
+        traced += kSeenRays;
+        if (sample == 0)
+          hasLightAlone_[isFirst][i] = !light.isMixed && !guides_.isAtBorder(x, y) ? 1 : 0;
+      }
       if (!known) {
         whole_.add(isFirst, i,
-                   tracePath(in.scene, caster, lights_, view, x, y, sample, path, &traced));
+                   seen + tracePath(in.scene, caster, lights_, view, x, y, sample, own, &traced));
         continue;
       }
-      const EndedPath p = traceEndedPath(in.scene, caster, lights_, view, x, y, sample, path,
-                                         *known, goesOn, &traced);
-      ended_.add(isFirst, i, p.radiance);
+      const EndedPath p = traceEndedPath(in.scene, caster, lights_, view, x, y, sample, own, *known,
+                                         goesOn, &traced);
+      ended_.add(isFirst, i, seen + p.radiance);
       if (goesOn) missing_.add(isFirst, i, p.missing);
     }
     rays += traced;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/path_tracer/path_tracer.h"
@@ -67,6 +68,9 @@ class PathRepair {
   PathTracerOptions path_;
   RepairGuides guides_;
   LightSet lights_;
+  // By pixel, for the second and the first half: the first rays at the sky or a lamp met nothing
+  // else.
+  std::vector<uint8_t> hasLightAlone_[2];
   // What paths see that end nowhere, and that end at known light, and what that light lacks: by
   // fewer paths, because it is the same for many pixels.
   PathSums whole_, ended_, missing_;

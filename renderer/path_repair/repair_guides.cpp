@@ -49,4 +49,12 @@ RepairGuides::RepairGuides(const GBufferView& gbuffer, const View& view, bool wh
   });
 }
 
+bool RepairGuides::isAtBorder(int x, int y) const {
+  constexpr int kReach = 2;
+  for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, height - 1); ++v)
+    for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, width - 1); ++u)
+      if (!isAtLight(u, v)) return true;
+  return false;
+}
+
 }  // namespace lamplighter

@@ -18,8 +18,15 @@ struct RepairGuides {
   std::vector<float> footprint;  // side of a pixel at its distance [m]
 
   RepairGuides() = default;
+  // Whether the sky or a lamp is seen, or beside.
+  bool isAtLight(int x, int y) const { return normalAt(x, y) == vec3(0.0f); }
+  // Of such a pixel: whether there are others within two pixels.
+  bool isAtBorder(int x, int y) const;
   // `white`: surfaces are shown white.
   RepairGuides(const GBufferView& gbuffer, const View& view, bool white);
+
+ private:
+  const vec3& normalAt(int x, int y) const { return normal[static_cast<size_t>(y * width + x)]; }
 };
 
 }  // namespace lamplighter

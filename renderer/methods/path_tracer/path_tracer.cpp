@@ -46,7 +46,8 @@ class Tracer {
     const int bounces = options.part == LightPart::direct ? 0 : options.bounces;
     for (int depth = start.depth;; ++depth) {
       // Light that emitters send to the camera, or to the first visible surface, is direct.
-      const bool takesSeen = options.part != LightPart::indirect || depth > 1;
+      const bool takesSeen =
+          depth == 0 ? options.seesLights : options.part != LightPart::indirect || depth > 1;
       ++raysTraced_;
       const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
       if (!hit) {

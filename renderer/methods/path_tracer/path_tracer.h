@@ -28,6 +28,8 @@ struct PathTracerOptions {
   LightPart part = LightPart::all;
   // Russian roulette starts after this number of bounces; before it, no path is terminated.
   int sureBounces = 8;
+  // Off: the sky and lamps that the camera itself sees are left out (seen_light.h).
+  bool seesLights = true;
 
   bool operator==(const PathTracerOptions&) const = default;
 };

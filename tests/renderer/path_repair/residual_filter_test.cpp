@@ -342,6 +342,8 @@ TEST(WindowResidual, ScalesThePictureAsInItsWindow) {
   guides.width = guides.height = 5;
   guides.normal.assign(25, vec3(0, 0, 1));
   guides.normal[3] = vec3(0.0f);  // the sky counts for nothing
+  guides.position.assign(25, vec3(0.0f));
+  guides.footprint.assign(25, 0.01f);
   Image picture(5, 5);
   std::vector<Halves> residuals(25);
   for (size_t i = 0; i < 25; ++i) {
@@ -352,6 +354,25 @@ TEST(WindowResidual, ScalesThePictureAsInItsWindow) {
   const Halves at = windowResidual(guides, picture, residuals, 2, 2, 2);
   EXPECT_NEAR(at.first.x, 0.5f * 13.0f, 1e-4f);
   EXPECT_NEAR(at.second.x, -0.25f * 13.0f, 1e-4f);
+}
+
+// A moulding, one pixel wide, in a wall whose residual is another.
+TEST(WindowResidual, PixelsOfTheSameSurfaceCountMost) {
+  constexpr int kSize = 9, kRow = 4;
+  RepairGuides guides;
+  guides.width = guides.height = kSize;
+  Image picture(kSize, kSize);
+  std::vector<Halves> residuals;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      guides.normal.push_back(y == kRow ? vec3(0, 1, 0) : vec3(0, 0, 1));
+      guides.position.emplace_back(0.01f * static_cast<float>(x), y == kRow ? 0.05f : 0.0f, 0.0f);
+      guides.footprint.push_back(0.01f);
+      picture.at(x, y) = vec3(1.0f);
+      residuals.push_back(y == kRow ? Halves{vec3(1.0f), vec3(1.0f)} : Halves());
+    }
+  EXPECT_GT(windowResidual(guides, picture, residuals, 4, kRow, 4).mean().x, 0.6f);
+  EXPECT_LT(windowResidual(guides, picture, residuals, 4, kRow + 1, 4).mean().x, 0.05f);
 }
 
 }  // namespace
