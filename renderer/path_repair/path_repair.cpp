@@ -94,6 +94,13 @@ void PathRepair::takePicture(const std::shared_ptr<RadianceImage>& live, bool is
   if (row_ == 0 && whole_.paths > 0 && whole_.paths % 2 == 0) beginFilter();
 }
 
+// Where the sky or a lamp is seen, rays find what share of the pixel it has, and paths the rest.
+// Not again where the first rays met nothing else.
+bool PathRepair::hasSeenLight(int x, int y, bool isFirst, uint32_t sample) const {
+  const auto i = static_cast<size_t>(y * view_.width + x);
+  return guides_.isAtLight(x, y) && (sample == 0 || hasLightAlone_[isFirst][i] == 0);
+}
+
 int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
                            const MirroredLight* surfaces, int most) {
   const View& view = in.view;
@@ -113,10 +120,8 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
     uint64_t traced = 0;
     for (int x = 0; x < view.width; ++x) {
       const auto i = static_cast<size_t>(y * view.width + x);
-      // Where the sky or a lamp is seen, rays tell what share of the pixel it has. Unless it is
-      // all.
       PathTracerOptions own = path;
-      own.seesLights = !guides_.isAtLight(x, y) || (sample > 0 && hasLightAlone_[isFirst][i] != 0);
+      own.seesLights = !hasSeenLight(x, y, isFirst, sample);
       vec3 seen(0.0f);
       if (!own.seesLights) {
         const SeenLight light = seenLight(in.scene, caster, view, x, y, sample, path.seed);

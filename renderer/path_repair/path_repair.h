@@ -53,6 +53,7 @@ class PathRepair {
 
   void begin(const FrameInputs& in, const Options& options);
   void takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview, bool endsAtSurfaces);
+  bool hasSeenLight(int x, int y, bool isFirst, uint32_t sample) const;
   int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
                  int most);
   void beginFilter();
