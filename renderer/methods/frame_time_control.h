@@ -27,8 +27,8 @@ class WorkRate {
 
 // A frame consists of updates of light samples, of light on surfaces, and of stages that cannot be
 // told to do less. If these leave too little, both kinds of work get a quarter of the limit each.
-// Paths that repair a picture before it has settled get seven tenths of the time, in frames of their
-// own: however long the frames of the method take at least, these keep the limit.
+// Paths that repair a picture before it has settled get seven tenths of the time, in frames of
+// their own: however long the frames of the method take at least, these keep the limit.
 class FrameTimeControl {
  public:
   struct Work {
