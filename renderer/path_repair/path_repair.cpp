@@ -96,9 +96,9 @@ void PathRepair::takePicture(const std::shared_ptr<RadianceImage>& live, bool is
 
 // Where the sky or a lamp is seen, rays find what share of the pixel it has, and paths the rest.
 // Not again where the first rays met nothing else.
-bool PathRepair::hasSeenLight(int x, int y, bool isFirst, uint32_t sample) const {
+bool PathRepair::hasSeenLight(int x, int y, size_t half, uint32_t sample) const {
   const auto i = static_cast<size_t>(y * view_.width + x);
-  return guides_.isAtLight(x, y) && (sample == 0 || hasLightAlone_[isFirst][i] == 0);
+  return guides_.isAtLight(x, y) && (sample == 0 || hasLightAlone_[half][i] == 0);
 }
 
 int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
@@ -107,7 +107,8 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
   const int end = std::min(row_ + most, view.height);
   PathTracerOptions path = options.path;
   const bool isFirst = paths() % 2 == 0;
-  path.seed = seedOfHalf(path.seed, isFirst ? 0 : 1);
+  const size_t half = isFirst ? 0 : 1;
+  path.seed = seedOfHalf(path.seed, static_cast<uint32_t>(half));
   path.sureBounces = kSureBounces;
   const auto sample = static_cast<uint32_t>(paths() / 2);
   const bool ends = surfaces != nullptr && whole_.paths >= kWholePaths;
@@ -121,24 +122,27 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
     for (int x = 0; x < view.width; ++x) {
       const auto i = static_cast<size_t>(y * view.width + x);
       PathTracerOptions own = path;
-      own.seesLights = !hasSeenLight(x, y, isFirst, sample);
-      vec3 seen(0.0f);
+      own.seesLights = !hasSeenLight(x, y, half, sample);
+      SeenLight seen{.surfaces = 1.0f};
       if (!own.seesLights) {
-        const SeenLight light = seenLight(in.scene, caster, view, x, y, sample, path.seed);
-        seen = light.radiance;
+        seen = seenLight(in.scene, caster, lights_, view, x, y, sample, path.seed);
+        own.inPixel = seen.onSurface;
         traced += kSeenRays;
-        if (sample == 0)
-          hasLightAlone_[isFirst][i] = !light.isMixed && !guides_.isAtBorder(x, y) ? 1 : 0;
+        if (sample == 0) hasLightAlone_[half][i] = !seen.isMixed && !guides_.isAtBorder(x, y);
       }
+      const bool hasPath = seen.surfaces > 0.0f;
       if (!known) {
-        whole_.add(isFirst, i,
-                   seen + tracePath(in.scene, caster, lights_, view, x, y, sample, own, &traced));
+        const vec3 rest =
+            hasPath ? tracePath(in.scene, caster, lights_, view, x, y, sample, own, &traced)
+                    : vec3(0.0f);
+        whole_.add(isFirst, i, seen.radiance + seen.surfaces * rest);
         continue;
       }
-      const EndedPath p = traceEndedPath(in.scene, caster, lights_, view, x, y, sample, own, *known,
-                                         goesOn, &traced);
-      ended_.add(isFirst, i, seen + p.radiance);
-      if (goesOn) missing_.add(isFirst, i, p.missing);
+      const EndedPath rest = hasPath ? traceEndedPath(in.scene, caster, lights_, view, x, y, sample,
+                                                      own, *known, goesOn, &traced)
+                                     : EndedPath();
+      ended_.add(isFirst, i, seen.radiance + seen.surfaces * rest.radiance);
+      if (goesOn) missing_.add(isFirst, i, seen.surfaces * rest.missing);
     }
     rays += traced;
   });

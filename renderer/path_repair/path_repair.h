@@ -53,7 +53,7 @@ class PathRepair {
 
   void begin(const FrameInputs& in, const Options& options);
   void takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview, bool endsAtSurfaces);
-  bool hasSeenLight(int x, int y, bool isFirst, uint32_t sample) const;
+  bool hasSeenLight(int x, int y, size_t half, uint32_t sample) const;
   int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
                  int most);
   void beginFilter();
@@ -69,8 +69,7 @@ class PathRepair {
   PathTracerOptions path_;
   RepairGuides guides_;
   LightSet lights_;
-  // By pixel, for the second and the first half: the first rays at the sky or a lamp met nothing
-  // else.
+  // Of each half, by pixel: the first rays at the sky or a lamp met nothing else.
   std::vector<uint8_t> hasLightAlone_[2];
   // What paths see that end nowhere, and that end at known light, and what that light lacks: by
   // fewer paths, because it is the same for many pixels.

@@ -118,7 +118,7 @@ class RepairedMethod final : public GiMethod {
 
   // After an edit, and in a new scene, the method gets another frame at once: it has mirrors.
   void keep(const FrameInputs& in, bool isStill, const GiOutput& out) {
-    last_ = out;
+    last_ = out.settled ? GiOutput() : out;
     settings_ = withoutBudget(in.settings);
     isLightOnly_ = in.lightOnly;
     framesAlone_ = 0;
@@ -127,7 +127,7 @@ class RepairedMethod final : public GiMethod {
 
   // Whether this frame may leave the picture as the method drew it last, and only trace paths.
   bool mayRepairAlone(const FrameInputs& in, int paths) const {
-    return mayBeSkipped_ && framesAlone_ < in.services.budget().previewFrames && !last_.settled &&
+    return mayBeSkipped_ && framesAlone_ < in.services.budget().previewFrames && last_.radiance &&
            mayPreview(in, last_) && repair_.isUrgent(paths) && isLightOnly_ == in.lightOnly &&
            settings_ == withoutBudget(in.settings);
   }

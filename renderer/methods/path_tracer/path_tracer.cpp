@@ -158,8 +158,10 @@ class Tracer {
 };
 
 // Through a point of the pixel.
-Ray cameraRay(const View& view, int x, int y, PathSampler& sampler) {
-  const vec2 inPixel = sampler.next2();
+Ray cameraRay(const View& view, int x, int y, PathSampler& sampler,
+              const PathTracerOptions& options) {
+  const vec2 random = sampler.next2();
+  const vec2 inPixel = options.inPixel.value_or(random);
   return {view.eye, 0.0f,
           view.rayDirection(static_cast<float>(x) + inPixel.x, static_cast<float>(y) + inPixel.y)};
 }
@@ -170,7 +172,7 @@ vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet
                const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options,
                uint64_t* raysTraced) {
   PathSampler sampler(static_cast<uint32_t>(y * view.width + x), sample, options.seed);
-  const Ray ray = cameraRay(view, x, y, sampler);
+  const Ray ray = cameraRay(view, x, y, sampler, options);
   Tracer tracer(scene, caster, lights);
   const vec3 radiance = tracer.trace(ray, sampler, options, {});
   if (raysTraced != nullptr) *raysTraced += tracer.raysTraced();
@@ -182,7 +184,7 @@ EndedPath traceEndedPath(const RenderScene& scene, const RayCaster& caster, cons
                          const PathTracerOptions& options, const KnownLight& known, bool isWhole,
                          uint64_t* raysTraced) {
   PathSampler sampler(static_cast<uint32_t>(y * view.width + x), sample, options.seed);
-  const Ray ray = cameraRay(view, x, y, sampler);
+  const Ray ray = cameraRay(view, x, y, sampler, options);
   Tracer tracer(scene, caster, lights);
   Tracer::End end{known, isWhole, {}};
   const vec3 radiance = tracer.trace(ray, sampler, options, {}, &end);

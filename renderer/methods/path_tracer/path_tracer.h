@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "renderer/methods/light_part.h"
 #include "renderer/methods/path_tracer/known_light.h"
@@ -30,6 +31,8 @@ struct PathTracerOptions {
   int sureBounces = 8;
   // Off: the sky and lamps that the camera itself sees are left out (seen_light.h).
   bool seesLights = true;
+  // The point of the pixel that camera rays go through; none: at random.
+  std::optional<vec2> inPixel = {};
 
   bool operator==(const PathTracerOptions&) const = default;
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
 
@@ -12,14 +13,18 @@ namespace lamplighter {
 
 inline constexpr uint32_t kSeenRays = 8;
 
+// What kSeenRays rays through a pixel meet.
 struct SeenLight {
-  vec3 radiance{0.0f};   // [W/(m² sr)]
-  bool isMixed = false;  // there are surfaces that do not emit, too
+  vec3 radiance{0.0f};    // of the sky and of emissive surfaces [W/(m² sr)]
+  float surfaces = 0.0f;  // the share of rays that meet a surface
+  vec2 onSurface{0.5f};   // the point in the pixel of one of these, chosen at random
+  bool isMixed = false;   // some rays meet surfaces that do not emit
 };
-// An unbiased estimate of the light of the sky and of emissive surfaces in pixel (x, y), from
-// sample number `sample`: by kSeenRays rays, which are far cheaper than paths. The points in the
-// pixel of consecutive samples are stratified. Depends only on its arguments.
-SeenLight seenLight(const RenderScene& scene, const RayCaster& caster, const View& view, int x,
-                    int y, uint32_t sample, uint32_t seed);
+// For sample number `sample` of pixel (x, y). The radiance plus `surfaces` times that of a path
+// through `onSurface` which leaves out what the camera itself sees (PathTracerOptions::seesLights)
+// is an unbiased estimate of the pixel. The points of consecutive samples are stratified. Depends
+// only on its arguments.
+SeenLight seenLight(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
+                    const View& view, int x, int y, uint32_t sample, uint32_t seed);
 
 }  // namespace lamplighter

@@ -30,9 +30,11 @@ TEST_F(LightTheCameraSees, AddUpToTheWholePicture) {
       vec3 whole(0.0f), parts(0.0f);
       bool isMixed = false;
       for (uint32_t s = 0; s < kSamples; ++s) {
-        const SeenLight seen = seenLight(lit.render, *lit.rays, view, x, y, s, 5);
+        const SeenLight seen = seenLight(lit.render, *lit.rays, lights, view, x, y, s, 5);
         isMixed = isMixed || (seen.isMixed && seen.radiance != vec3(0.0f));
-        parts += seen.radiance + tracePath(lit.render, *lit.rays, lights, view, x, y, s, without);
+        without.inPixel = seen.onSurface;
+        parts += seen.radiance +
+                 seen.surfaces * tracePath(lit.render, *lit.rays, lights, view, x, y, s, without);
         whole += tracePath(lit.render, *lit.rays, lights, view, x, y, s, options);
         if (!seen.isMixed) ++alone;
       }
@@ -48,9 +50,28 @@ TEST_F(LightTheCameraSees, TheSkyIsSeenToo) {
   Scene outside;
   outside.sky = vec3(2.0f, 3.0f, 4.0f);
   const test::LitScene lit(outside);
-  const SeenLight seen = seenLight(lit.render, *lit.rays, view, 3, 3, 0, 1);
+  const SeenLight seen = seenLight(lit.render, *lit.rays, LightSet(lit.render), view, 3, 3, 0, 1);
   EXPECT_EQ(seen.radiance, vec3(2.0f, 3.0f, 4.0f));
+  EXPECT_EQ(seen.surfaces, 0.0f);
   EXPECT_FALSE(seen.isMixed);
+}
+
+// Between the sky and a surface as bright as the sky there is no edge to see, nor any noise.
+TEST_F(LightTheCameraSees, SharesOfAPixelAddUp) {
+  Scene ground;
+  test::addMesh(ground, test::boxMesh(vec3(1.0f), test::addMaterial(ground, vec3(1.0f))));
+  ground.sky = vec3(1.0f);
+  view = test::lookAt(vec3(0, 0, 4), vec3(0), 24, 16, 0.4f);
+  const test::LitScene lit(ground);
+  const LightSet lights(lit.render);
+  int edges = 0;
+  for (int y = 0; y < view.height; ++y)
+    for (int x = 0; x < view.width; ++x) {
+      const SeenLight seen = seenLight(lit.render, *lit.rays, lights, view, x, y, 0, 1);
+      EXPECT_NEAR(seen.radiance.x + seen.surfaces, 1.0f, 1e-6f);
+      edges += seen.radiance.x > 0.0f && seen.surfaces > 0.0f;
+    }
+  EXPECT_GT(edges, 0);
 }
 
 }  // namespace
