@@ -1,10 +1,11 @@
-// Actions of the split view: two pictures side by side, and their difference.
+// Actions of the split view: two pictures side by side, their difference, and tiles.
 #include <map>
 
 #include "editor/actions/arguments.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
+#include "renderer/image/image_io.h"
 
 namespace lamplighter {
 namespace {
@@ -14,12 +15,56 @@ bool isOn(const Session& s) { return s.split().on(); }
 // Switches the split view on with the live picture and the reference, unless it is on already.
 void makeSureOfSplit(Session& s) {
   const std::string& method = s.document().render.method;
-  if (!s.split().on()) s.split().turnOn(readSide("live", method), readSide("reference", method));
+  if (!s.split().on())
+    s.split().turnOn(readSide("live", method), {readSide(kReferenceMethod, method)});
+}
+
+// The live picture and every other method that shows light, or the named sides.
+void showTiles(Session& s, std::vector<std::string> names) {
+  const std::string& method = s.document().render.method;
+  if (names.empty()) {
+    names = methodsOfLight();
+    std::erase(names, method);
+    names.insert(names.begin(), "live");
+  }
+  std::vector<SplitSide> sides;
+  for (const std::string& name : names) sides.push_back(readSide(name, method));
+  SplitSide first = std::move(sides.front());
+  sides.erase(sides.begin());
+  if (sides.empty())
+    throw InputError(first.text, "is alone", "give two sides or more, or none for all methods");
+  s.split().turnOn(std::move(first), std::move(sides));
+  s.split().setShown(SplitView::Shown::tiles);
+}
+
+void addTileActions(ActionRegistry& r) {
+  r.add({"split.tiles", "All methods as tiles", "[SIDE]…",
+         "Shows pictures of the view as tiles with the work and the error of each: all methods, or "
+         "the named ones (live many_lights,vpls=1000 reference). In each frame the live picture "
+         "and one other are rendered. Each keeps a copy of the level.",
+         "", [](Session& s, const Arguments& a) { showTiles(s, a); }, nullptr, true,
+         [](const Session& s) { return s.split().showsTiles(); }});
+  r.add({"split.export", "Export the comparison", "FILE",
+         "Writes all pictures of the split view as one PNG file, with their figures under each.",
+         "",
+         [](Session& s, const Arguments& a) {
+           const std::filesystem::path file = s.writablePath(a[0]);
+           if (!hasExtension(file, kPngExtensions))
+             throw InputError(a[0], "is not a .png file", "give a name that ends with .png");
+           writePng(s.sheet(), file);
+           s.setStatus("Wrote " + file.string());
+         },
+         isOn, true})
+      .asks = {.kind = ActionAsk::Kind::saveFile,
+               .title = "Export the comparison",
+               .extensions = kPngExtensions,
+               .suggested = [](const Session&) { return "comparison.png"; }};
 }
 
 }  // namespace
 
 void addSplitActions(ActionRegistry& r) {
+  addTileActions(r);
   r.add({"split.on", "Split view", "[A B]",
          "Shows two pictures of the view, A left and B right of a divider. Each is live or the "
          "name of a method, with optional parameters (many_lights,vpls=1000). Default: the live "
@@ -33,7 +78,7 @@ void addSplitActions(ActionRegistry& r) {
            }
            const std::string& method = s.document().render.method;
            SplitSide first = readSide(a[0], method), second = readSide(a[1], method);
-           s.split().turnOn(std::move(first), std::move(second));
+           s.split().turnOn(std::move(first), {std::move(second)});
          },
          nullptr, true,
          [](const Session& s) { return isOn(s) && s.split().shown() == SplitView::Shown::both; }});
@@ -52,21 +97,22 @@ void addSplitActions(ActionRegistry& r) {
   r.add({"split.toggle", "Show the other side", "",
          "Shows one side of the split view in the whole view, then the other.", "",
          [](Session& s, const Arguments&) { s.split().toggleWhole(); }, isOn, true});
-  r.add({"split.show", "Compare", "off|both|first|second|heat",
-         "Sets what the split view shows: the live picture, both sides, one side, or their "
-         "difference.",
+  r.add({"split.show", "Compare", "off|both|first|second|heat|tiles",
+         "Sets what the split view shows: the live picture, two sides with a divider, one side, "
+         "their difference, or all sides as tiles.",
          "",
          [](Session& s, const Arguments& a) {
            using Shown = SplitView::Shown;
            static const std::map<std::string, Shown> kShown = {{"both", Shown::both},
                                                                {"first", Shown::first},
                                                                {"second", Shown::second},
-                                                               {"heat", Shown::heat}};
+                                                               {"heat", Shown::heat},
+                                                               {"tiles", Shown::tiles}};
            if (a[0] == "off") return s.split().turnOff();
            const auto shown = kShown.find(a[0]);
            if (shown == kShown.end())
              throw InputError(a[0], "is not a mode of the split view",
-                              "give off, both, first, second or heat");
+                              "give off, both, first, second, heat or tiles");
            makeSureOfSplit(s);
            s.split().setShown(shown->second);
          },

@@ -11,7 +11,7 @@
 #include "editor/convergence/convergence_meter.h"
 #include "editor/debug_views/look.h"
 #include "editor/document/cache_folder.h"
-#include "editor/split/split_view.h"
+#include "editor/split/split_side.h"
 #include "editor/split/tile_sheet.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
@@ -19,23 +19,13 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/image/tone_map.h"
-#include "renderer/registry/registry.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter::cli {
 namespace {
 
-constexpr const char* kReference = "reference";
 // Errors are those of means of so many pixels a side, which leaves less of the reference's noise.
 constexpr int kBlock = 4;
-
-// All methods that show light.
-std::vector<std::string> allSides() {
-  std::vector<std::string> sides;
-  for (const MethodInfo& m : lamplighter::methods())
-    if (findParameter(m.parameters, "bounces") != nullptr) sides.push_back(m.name);
-  return sides;
-}
 
 struct Rendered {
   std::string side;
@@ -79,7 +69,7 @@ std::vector<std::string> figuresOf(const Rendered& r, const Rendered* reference)
 int tiles(const TilesOptions& o, const Frontend& frontend) {
   // Check the whole command line before any work.
   requireWritable(o.output, {".png"});
-  const std::vector<std::string> sides = o.sides.empty() ? allSides() : o.sides;
+  const std::vector<std::string> sides = o.sides.empty() ? methodsOfLight() : o.sides;
   for (const std::string& side : sides)
     if (readSide(side, "many_lights").method.empty())
       throw InputError("--side " + side, "is not a method", "name one of 'lamplighter methods'");
@@ -96,7 +86,7 @@ int tiles(const TilesOptions& o, const Frontend& frontend) {
     progress.show(fmt::format("{}, {} of {}", side, rendered.size() + 1, sides.size()));
     rendered.push_back(renderSide(side, loaded.scene, o, frontend));
   }
-  const auto isReference = [](const Rendered& r) { return r.side.starts_with(kReference); };
+  const auto isReference = [](const Rendered& r) { return r.side.starts_with(kReferenceMethod); };
   const auto found = std::ranges::find_if(rendered, isReference);
   const Rendered* reference = found == rendered.end() ? nullptr : &*found;
   // One exposure for all: that of the reference or of the first.

@@ -17,6 +17,7 @@ inline constexpr std::string_view kProfileExtensions[] = {".ies"};
 inline constexpr std::string_view kLightPictureExtensions[] = {".png", ".jpg", ".jpeg"};
 inline constexpr std::string_view kSkyExtensions[] = {".exr", ".hdr",  ".png",
                                                       ".jpg", ".jpeg", ".webp"};
+inline constexpr std::string_view kPngExtensions[] = {".png"};
 inline constexpr std::string_view kTimelineExtensions[] = {".json", ".csv"};
 
 // Whether the file has one of the extensions, in upper or lower case.

@@ -202,6 +202,7 @@ void Session::skipFrame() {
 
 const GiOutput& Session::renderFrame(std::optional<int> updates, const FrameBudget& budget) {
   const double begin = clock_ ? clock_() : 0.0;
+  if (split_.showsTiles() || isTiled_) fitView();
   const RenderSettings render =
       split_.on() ? split_.first().of(document_.render) : document_.render;
   const FrameFailures::Input input{view_, render, display_.view()};
@@ -224,7 +225,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, const FrameBudg
     if (document_.active() != kNoNode) display_.chooseLight(document_.active());
     display_.update(*renderer_, *output_.radiance, view_, document_.render, !same);
     points_.update(pointSubject(), !same, !changes.none());
-    watchFrame(changes, begin);
+    watchFrame(changes, begin, budget.inBackground || budget.refineUpdates > 0);
     updateProbes(changes, budget.inBackground);
     failures_.rendered();
   } catch (const std::exception& e) {

@@ -85,7 +85,9 @@ class Session {
   // The camera and the tools.
   const View& view() const { return view_; }
   void setView(const View& view) { view_ = view; }
+  // The view fills this area or, with tiles, has the size of one.
   void resizeViewport(int width, int height);
+  TileLayout tiles() const { return split_.layout(area_); }  // in the area
   ToolMode tool() const;
   void setTool(ToolMode mode);
   bool snapping() const;
@@ -128,8 +130,10 @@ class Session {
   const ViewDisplay& display() const { return display_; }
   // In the unit of renderScene(), as is everything of renderer().
   Inspection inspect() const { return renderer_->inspect(); }
-  // The picture in the viewport, without the overlay.
-  Image8 picture() const;
+  // The picture in the viewport, without the overlay. With tiles: all of them with their figures.
+  Image8 picture();
+  // All sides of the split view with their figures.
+  Image8 sheet();
   uint32_t frame() const { return frame_; }
   const RenderScene& renderScene() const { return renderer_->scene(); }  // of the last frame
   float unit() const { return renderScene().unit; }          // of lengths that suit the level [m]
@@ -215,6 +219,8 @@ class Session {
   std::unique_ptr<FrameRenderer> renderer_;
   std::unique_ptr<Tools> tools_;
   View view_;
+  glm::ivec2 area_{1};    // of the viewport [px]
+  bool isTiled_ = false;  // the view has the size of a tile
   GiOutput output_;
   ViewDisplay display_;
   PointTools points_;
@@ -246,7 +252,9 @@ class Session {
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
   const Scene& litScene(SceneChanges& changes);
   void updateProbes(const SceneChanges& changes, bool isTimed);
-  void watchFrame(const SceneChanges& changes, double begin);
+  void watchFrame(const SceneChanges& changes, double begin, bool isPaced);
+  Image8 firstPicture() const;
+  void fitView();
   void tell(const std::exception_ptr& failure);
   void frameFailed(const std::exception& e, const FrameFailures::Input& input);
   std::optional<Place> surfaceAlong(const vec3& direction,

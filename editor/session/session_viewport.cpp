@@ -15,8 +15,15 @@
 namespace lamplighter {
 
 void Session::resizeViewport(int width, int height) {
-  view_.width = std::max(width, 1);
-  view_.height = std::max(height, 1);
+  area_ = max(glm::ivec2(width, height), glm::ivec2(1));
+  fitView();
+}
+
+void Session::fitView() {
+  isTiled_ = split_.showsTiles();
+  const glm::ivec2 size = isTiled_ ? tiles().size : area_;
+  view_.width = size.x;
+  view_.height = size.y;
 }
 
 ToolMode Session::tool() const { return tools_->gizmo.mode; }
@@ -67,7 +74,9 @@ void Session::frameAll() { tools_->camera.frame(view_, bounds(), unit()); }
 
 Bounds Session::bounds() const { return inMetres(renderScene().bounds, unit()); }
 
-void Session::viewport(const ViewportInput& input) {
+void Session::viewport(const ViewportInput& inArea) {
+  const ViewportInput input =
+      split_.showsTiles() ? split_.pointer().inTile(inArea, tiles()) : inArea;
   if (input.hovered || dragging()) {
     tools_->pointer = input.pointer;
     tools_->pointerKnown = true;

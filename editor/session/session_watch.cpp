@@ -14,7 +14,7 @@ void Session::updateProbes(const SceneChanges& changes, bool isTimed) {
 }
 
 // The time of the second picture is not part of the frame.
-void Session::watchFrame(const SceneChanges& changes, double begin) {
+void Session::watchFrame(const SceneChanges& changes, double begin, bool isPaced) {
   const double end = clock_ ? clock_() : 0.0;
   watch_.timeline.add(frame_, begin, end, output_.stats);
   RenderSettings shown = document_.render;
@@ -23,28 +23,41 @@ void Session::watchFrame(const SceneChanges& changes, double begin) {
   watch_.shown = std::move(shown);
   watch_.latency.frame({edited && !changes.everything, history().undoLabel(), output_.settled,
                         view_, output_.radiance, begin, end});
-  // The reference has no work light, and always shows all parts of the light.
-  if (display_.part() == LightPart::all && !lighting_.workLight)
+  // The reference has no work light, and always shows all parts of the light. With tiles it is one
+  // of them.
+  if (display_.part() == LightPart::all && !lighting_.workLight && !split_.showsTiles())
     watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_);
   else
     watch_.meter.pause();
   if (watch_.meter.measured()) setStatus(watch_.meter.text());
   try {
-    split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
+    split_.frame({{document_, view_, display_.lightOnly(), isPaced, clock_},
+                  changes,
+                  output_,
+                  end - begin,
+                  watch_.meter});
   } catch (const std::exception& e) {
     split_.turnOff();  // the first side was rendered and stays
     setStatus("Split view: " + failureText(e), NoticeKind::error);
   }
   output_.settled = output_.settled && split_.settled();
+  output_.refined = output_.refined && split_.refined();
 }
 
-Image8 Session::picture() const {
-  const auto& view = display_.picture();
-  const float ev = document_.render.exposureEv;
+Image8 Session::firstPicture() const {
+  if (const auto& view = display_.picture()) return view->image;
+  return toneMap(output_.radiance->pixels(), document_.render.exposureEv, display_.toneMapper());
+}
+
+Image8 Session::sheet() {
+  return split_.sheet(firstPicture(), tiles().columns, document_.render.exposureEv,
+                      display_.toneMapper());
+}
+
+Image8 Session::picture() {
   if (split_.on() && split_.heat()) return split_.heat()->image;
-  const ToneMapper mapper = display_.toneMapper();
-  return split_.compose(view ? view->image : toneMap(output_.radiance->pixels(), ev, mapper), ev,
-                        mapper);
+  if (split_.showsTiles()) return sheet();
+  return split_.compose(firstPicture(), document_.render.exposureEv, display_.toneMapper());
 }
 
 }  // namespace lamplighter

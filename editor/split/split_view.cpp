@@ -2,63 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/notices/failure_text.h"
 #include "editor/split/heat_map.h"
-#include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/base/error.h"
 #include "renderer/image/average_blocks.h"
-#include "renderer/image/tone_map.h"
-#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 
-RenderSettings SplitSide::of(const RenderSettings& document) const {
-  RenderSettings settings = document;
-  if (!method.empty()) settings.method = method;
-  for (const auto& [name, value] : values.values()) settings.values.set(name, value);
-  return settings;
-}
-
-SplitSide readSide(const std::string& text, const std::string& method) {
-  SplitSide side;
-  side.text = text;
-  std::istringstream in(text);
-  std::string part;
-  std::getline(in, part, ',');
-  if (part != "live") side.method = findMethod(part).name;
-  const auto& all = findMethod(side.method.empty() ? method : side.method).parameters;
-  while (std::getline(in, part, ',')) {
-    const size_t equals = part.find('=');
-    const ParameterSpec* spec = findParameter(all, part.substr(0, equals));
-    if (equals == std::string::npos || !spec)
-      throw InputError(text, "'" + part + "' does not set a parameter of the method",
-                       "give live or a method, then ,NAME=VALUE for each parameter");
-    side.values.set(spec->name, Settings::parse(*spec, part.substr(equals + 1)));
-  }
-  return side;
-}
-
-void SplitView::turnOn(SplitSide first, SplitSide second) {
+void SplitView::turnOn(SplitSide first, std::vector<SplitSide> others) {
+  turnOff();
   first_ = std::move(first);
-  second_ = std::move(second);
+  for (SplitSide& side : others) others_.emplace_back(std::move(side));
   on_ = true;
   shown_ = Shown::both;
-  settled_ = false;
-  picture_.reset();
-  heat_.reset();
 }
 
 void SplitView::turnOff() {
-  on_ = false;
-  fresh_ = true;  // it gets no changes while it is off
-  picture_.reset();
+  on_ = settled_ = refined_ = false;
+  others_.clear();  // frees their shadow maps and copies of the scene
+  next_ = 0;
+  firstPicture_.reset();
+  firstProgress_ = {};
+  errors_ = {};
   taken_.reset();
   heat_.reset();
   heatFirst_.reset();
   heatSecond_.reset();
-  renderer_.reset();  // frees its shadow maps and copies of the scene
+}
+
+const SplitSide& SplitView::second() const {
+  return others_.empty() ? first_ : others_.front().side();
 }
 
 bool SplitView::drag(const ViewportInput& input, int width) {
@@ -76,58 +52,144 @@ bool SplitView::drag(const ViewportInput& input, int width) {
 
 void SplitView::toggleWhole() { shown_ = shown_ == Shown::second ? Shown::first : Shown::second; }
 
-void SplitView::frame(const Document& document, const SceneChanges& changes, const View& view,
-                      bool lightOnly, const GiOutput& first, const ErrorMeter& meter) {
+void SplitView::frame(const Frame& frame) {
   if (!on_) return;
-  const RenderSettings settings = second_.of(document.render);
-  if (meter.on() && settings.method == "reference" && second_.values.values().empty()) {
-    settled_ = meter.reference() != nullptr;
-    if (meter.reference() && meter.reference() != taken_) {
-      taken_ = meter.reference();
-      picture_ = std::make_shared<HostImage>(enlarged(taken_->mean(), view.width, view.height));
-    }
-    fresh_ = true;
-  } else {
-    taken_.reset();
-    if (!renderer_) {
-      renderer_ = make_ ? make_() : std::make_unique<FrameRenderer>(makeCpuBackend());
-      fresh_ = true;
-    }
-    const SceneChanges seen = std::exchange(fresh_, false) ? SceneChanges::all() : changes;
-    const GiOutput out = renderer_->render(
-        {document.scene, seen, view, settings.method, settings.values, lightOnly, false, 0});
-    picture_ = out.radiance;
-    settled_ = out.settled;
-  }
+  for (ComparedSide& side : others_) side.note(frame.changes);
+  SideInput seen = frame.side.of(first_);
+  const bool isNew = !frame.changes.none() || !(seen == firstSeen_);
+  firstSeen_ = std::move(seen);
+  firstProgress_.frame(isNew, frame.seconds, frame.first.settled);
+  firstPicture_ = frame.first.radiance;
+  liveMethod_ = frame.side.document.render.method;
+  if (shown_ == Shown::tiles)
+    renderTile(frame);
+  else
+    renderSecond(frame);
   if (shown_ == Shown::heat)
-    makeHeat(*first.radiance);
+    makeHeat();
   else
     heat_.reset();
-  if (shown_ == Shown::heat && heat_) heatFirst_ = first.radiance;
 }
 
-void SplitView::makeHeat(RadianceImage& first) {
-  if (!picture_ || picture_->width() != first.width() || picture_->height() != first.height()) {
+void SplitView::renderSecond(const Frame& frame) {
+  ComparedSide& second = others_.front();
+  const SideInput wanted = frame.side.of(second.side());
+  const ErrorMeter& meter = frame.meter;
+  if (meter.on() && wanted.settings.method == kReferenceMethod &&
+      second.side().values.values().empty()) {
+    std::shared_ptr<RadianceImage> picture;
+    if (meter.reference() && meter.reference() != taken_) {
+      taken_ = meter.reference();
+      const View& view = frame.side.view;
+      picture = std::make_shared<HostImage>(enlarged(taken_->mean(), view.width, view.height));
+    }
+    second.show(std::move(picture), meter.reference() != nullptr);
+  } else {
+    taken_.reset();
+    second.render(frame.side, make_);
+  }
+  settled_ = second.settled();
+  refined_ = second.refined() || !frame.side.isPaced;
+}
+
+void SplitView::renderTile(const Frame& frame) {
+  taken_.reset();
+  for (size_t i = 0; i < others_.size(); ++i) {
+    ComparedSide& side = others_[next_];
+    next_ = (next_ + 1) % others_.size();
+    if (side.isDone(frame.side)) continue;
+    try {
+      side.render(frame.side, make_);
+    } catch (const std::exception& e) {
+      side.fail(failureText(e), frame.side);
+    }
+    break;
+  }
+  const auto isDone = [&](const ComparedSide& side) { return side.isDone(frame.side); };
+  refined_ = std::ranges::all_of(others_, isDone);
+  settled_ = refined_ || std::ranges::all_of(others_, &ComparedSide::settled);
+  compare(false);
+}
+
+size_t SplitView::baseSide() const {
+  const auto isReference = [&](const ComparedSide& s) {
+    return s.side().method == kReferenceMethod;
+  };
+  const auto found = std::ranges::find_if(others_, isReference);
+  if (found != others_.end()) return 1 + static_cast<size_t>(found - others_.begin());
+  return firstSeen_.settings.method == kReferenceMethod ? 0 : others_.size();
+}
+
+void SplitView::compare(bool waits) {
+  std::vector<TileErrors::Picture> pictures;
+  for (size_t i = 0; i < sides(); ++i) pictures.push_back(picture(i));
+  errors_.update(pictures, baseSide(), waits);
+}
+
+std::shared_ptr<RadianceImage> SplitView::picture(size_t side) const {
+  if (side >= sides()) return nullptr;
+  return side == 0 ? firstPicture_ : others_[side - 1].picture();
+}
+
+std::string SplitView::title(size_t side) const {
+  const SplitSide& shown = side == 0 ? first_ : others_[side - 1].side();
+  return shown.method.empty() && !liveMethod_.empty() ? shown.text + ": " + liveMethod_
+                                                      : shown.text;
+}
+
+std::vector<std::string> SplitView::figures(size_t side) const {
+  if (side > 0 && !others_[side - 1].failure().empty()) return {others_[side - 1].failure()};
+  const SideProgress& progress = side == 0 ? firstProgress_ : others_[side - 1].progress();
+  std::vector<std::string> lines{progress.text()};
+  if (const std::optional<double> error = errors_.of(side))
+    lines.push_back(fmt::format("{:.1f}% from {}", 100.0 * *error, title(baseSide())));
+  return lines;
+}
+
+void SplitView::makeHeat() {
+  const std::shared_ptr<RadianceImage> second = secondPicture();
+  RadianceImage& first = *firstPicture_;
+  if (!second || second->width() != first.width() || second->height() != first.height()) {
     heat_.reset();
     return;
   }
-  if (heat_ && heatFirst_.get() == &first && heatSecond_ == picture_ && heatFor_ == heatScale_)
+  if (heat_ && heatFirst_ == firstPicture_ && heatSecond_ == second && heatFor_ == heatScale_)
     return;
   const int block = taken_ ? taken_->block : 1;
   const Image a = averageBlocks(first.pixels(), block);
-  const Image b = taken_ ? taken_->mean() : picture_->pixels();
+  const Image b = taken_ ? taken_->mean() : second->pixels();
   heat_ = std::make_shared<const ViewPicture>(
-      heatMapOf(a, b, heatScale_, first.width(), first.height(), first_.text, second_.text));
-  heatSecond_ = picture_;
+      heatMapOf(a, b, heatScale_, first.width(), first.height(), first_.text, this->second().text));
+  heatFirst_ = firstPicture_;
+  heatSecond_ = second;
   heatFor_ = heatScale_;
+}
+
+std::vector<Tile> SplitView::tiles(const Image8& first, float exposureEv, ToneMapper mapper) const {
+  std::vector<Tile> result;
+  for (size_t i = 0; i < sides(); ++i) {
+    const std::shared_ptr<RadianceImage> own = picture(i);
+    const bool fits = own && own->width() == first.width && own->height() == first.height;
+    Image8 shown = i == 0 ? first
+                   : fits ? toneMap(own->pixels(), exposureEv, mapper)
+                          : Image8(first.width, first.height);
+    result.push_back({std::move(shown), title(i), figures(i)});
+  }
+  return result;
+}
+
+Image8 SplitView::sheet(const Image8& first, int columns, float exposureEv, ToneMapper mapper) {
+  compare(true);
+  const Font font(look::kTextFont, static_cast<int>(look::kFontSize), "the split view");
+  return tileSheet(tiles(first, exposureEv, mapper), columns, font);
 }
 
 Image8 SplitView::compose(const Image8& first, float exposureEv, ToneMapper mapper) const {
   if (!on_ || shown_ == Shown::first) return first;
   if (shown_ == Shown::heat && heat_) return heat_->image;
-  if (!picture_ || picture_->width() != first.width || picture_->height() != first.height)
-    return first;
-  Image8 second = toneMap(picture_->pixels(), exposureEv, mapper);
+  const std::shared_ptr<RadianceImage> own = secondPicture();
+  if (!own || own->width() != first.width || own->height() != first.height) return first;
+  Image8 second = toneMap(own->pixels(), exposureEv, mapper);
   if (shown_ == Shown::second) return second;
   const int divider = static_cast<int>(std::lround(position_ * static_cast<float>(first.width)));
   Image8 both = first;

@@ -85,9 +85,11 @@ void Application::frame() {
     inPart("Picture", [&] { renderAndPresent(); });
   else
     session_->skipFrame();
-  const bool isSplit = session_->split().on() && session_->split().secondPicture();
-  inPart("Viewport's overlay",
-         [&] { viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0); });
+  inPart("Viewport's overlay", [&] {
+    std::vector<uint32_t> textures{picture_.texture()};
+    for (const auto& other : otherPictures_) textures.push_back(other->texture());
+    viewport_.draw(ui, textures);
+  });
   inPart("Status line", [&] { drawStatusLine(ui); });
   inPart("Messages", [&] { toasts(ui, toastState_, layout_.view, dt_); });
   inPart("Dialog", [&] { drawDialogs(ui); });
@@ -333,9 +335,7 @@ void Application::closeIfSaved() {
 void Application::present() {
   if (!platform_.hasGl()) return;
   const SplitView& split = session_->split();
-  if (split.on() && split.secondPicture() && split.shown() != SplitView::Shown::heat)
-    secondPicture_.show(split.secondPicture(), session_->document().render.exposureEv,
-                        session_->display().toneMapper());
+  presentOthers();
   if (split.on() && split.heat())
     picture_.show(split.heat());
   else if (const auto& view = session_->display().picture())
@@ -343,6 +343,23 @@ void Application::present() {
   else
     picture_.show(session_->output().radiance, session_->document().render.exposureEv,
                   session_->display().toneMapper());
+}
+
+// The sides of a split view that are shown, but the first.
+void Application::presentOthers() {
+  const SplitView& split = session_->split();
+  const size_t shown = split.shown() == SplitView::Shown::heat ? 0
+                       : split.showsTiles()                    ? ~size_t{0}
+                                                               : 1;
+  const size_t others = std::min(shown, split.on() ? split.sides() - 1 : 0);
+  otherPictures_.resize(others);
+  for (size_t i = 0; i < others; ++i) {
+    const std::shared_ptr<RadianceImage> radiance = split.picture(i + 1);
+    // A new texture where nothing is shown any more.
+    if (!otherPictures_[i] || !radiance) otherPictures_[i] = std::make_unique<Picture>();
+    otherPictures_[i]->show(radiance, session_->document().render.exposureEv,
+                            session_->display().toneMapper());
+  }
 }
 
 void Application::takeLoaded() {

@@ -99,6 +99,7 @@ class Application {
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
   void present();
+  void presentOthers();
   void logLatency();
   void takeLoaded();
   void answerRequests();
@@ -122,7 +123,8 @@ class Application {
   InputRouter router_{widgets_};
   FrameParts parts_;
   ImGuiLayer gui_;
-  Picture picture_, secondPicture_;
+  Picture picture_;
+  std::vector<std::unique_ptr<Picture>> otherPictures_;  // of the split view
   MeterWorker meterWorker_;
   Viewport viewport_;
   Layout layout_;

@@ -76,12 +76,12 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
   showPreparing(window,
                 std::clamp(window.contentScale() * settings.uiScale, kLeastUiScale, kMostUiScale));
   const auto makeRenderer = [&] {
-    return std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
+    auto made = std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
+    // Recordings must not depend on files of earlier sessions.
+    if (!recording) made->setCacheFolder(transferFolder());
+    return made;
   };
-  auto renderer = makeRenderer();
-  // Recordings must not depend on files of earlier sessions.
-  if (!recording) renderer->setCacheFolder(transferFolder());
-  Application app(window, std::make_unique<Session>(std::move(renderer)));
+  Application app(window, std::make_unique<Session>(makeRenderer()));
   app.session().split().setRenderer(makeRenderer);
   if (!recording) app.setUser(std::move(files), std::move(preferences));
   const fs::path journal = options.journal.empty() ? recoveryFolder() : fs::path(options.journal);

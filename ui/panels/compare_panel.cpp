@@ -1,4 +1,5 @@
-// The accuracy of the picture: the error meter, and the split view with the choice of its sides.
+// The accuracy of the picture: the error meter, the split view with the choice of its sides, and
+// all methods as tiles.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -63,12 +64,17 @@ void shownRow(const PanelContext& ui, Requests& requests) {
       Choice{"A", "first", "A alone; Space shows the other.", Shown::first},
       Choice{"B", "second", "B alone; Space shows the other.", Shown::second},
       Choice{"Heat", "heat", "How far A is from B, in false colour.", Shown::heat},
+      Choice{"All", "tiles",
+             "All methods as tiles with the error of each. A frame renders the picture and one "
+             "tile; each method keeps a copy of the level in memory.",
+             Shown::tiles},
   };
   labelledRow(ui, "Compare",
               "Compares the picture with a second one of the same view, which costs the time to "
               "render it.");
   const float gap = ui.px(3);
-  const float width = std::floor((ImGui::GetContentRegionAvail().x - 4 * gap) / 5);
+  const auto gaps = static_cast<float>(kChoices.size() - 1);
+  const float width = std::floor((ImGui::GetContentRegionAvail().x - gaps * gap) / (gaps + 1));
   for (const Choice& choice : kChoices) {
     if (&choice != &kChoices.front()) ImGui::SameLine(0, gap);
     const bool holds = choice.shown ? split.on() && split.shown() == *choice.shown : !split.on();
@@ -77,7 +83,11 @@ void shownRow(const PanelContext& ui, Requests& requests) {
     ImGui::PopStyleVar();
     ui.name(std::string("show/") + choice.widget);
     tooltip(ui, choice.help);
-    if (clicked && !holds) requests.actions.push_back(std::string("split.show ") + choice.widget);
+    if (!clicked || holds) continue;
+    if (choice.shown == Shown::tiles)
+      requests.actions.emplace_back("split.tiles");
+    else
+      requests.actions.push_back(std::string("split.show ") + choice.widget);
   }
 }
 

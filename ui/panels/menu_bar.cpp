@@ -36,9 +36,9 @@ std::vector<std::string> viewActions() {
   add({"<", "-"});
   add({"view.false_colour_unit", "view.false_colour_range", "-"});
   add({"view.vpls", "view.probes", "view.probe_grid", "view.probe", "view.histogram"});
-  add({"view.tone_mapper", "-", "split.on"});
+  add({"view.tone_mapper", "-", "split.on", "split.tiles"});
   add({kSplitMenu, "split.show", "split.toggle", "split.heat", "split.heat_scale"});
-  add({"split.position", "split.off", "<", "-"});
+  add({"split.position", "split.export", "split.off", "<", "-"});
   add({">Camera", "view.frame_all", "view.frame_selection", "-", "camera.go"});
   add({"bookmark.go", "bookmark.store", "bookmark.clear", "<"});
   add({">Window", "panel.assets", "panel.log", "panel.next", "panel.previous"});

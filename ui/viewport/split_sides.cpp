@@ -62,4 +62,15 @@ void drawSplitLabels(const PanelContext& ui, ImDrawList& list, const Rect& area,
   if (split.hot()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
+void drawTileCaption(ImDrawList& list, const Rect& area, const SplitView& split, size_t side) {
+  list.PushClipRect({area.min.x, area.min.y}, {area.max.x, area.max.y}, true);
+  ImVec2 at{area.min.x, area.min.y + 0.5f * static_cast<float>(kTileGap)};
+  list.AddText(at, theme::colour(theme::kText), split.title(side).c_str());
+  for (const std::string& line : split.figures(side)) {
+    at.y += ImGui::GetTextLineHeight();
+    list.AddText(at, theme::colour(theme::kTextDim), line.c_str());
+  }
+  list.PopClipRect();
+}
+
 }  // namespace lamplighter

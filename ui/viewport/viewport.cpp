@@ -65,6 +65,14 @@ void drawTexts(ImDrawList& list, const Overlay& overlay, vec2 origin, float scal
   }
 }
 
+void drawPicture(ImDrawList& list, const Rect& area, uint32_t texture) {
+  const ImVec2 low{area.min.x, area.min.y}, high{area.max.x, area.max.y};
+  if (texture != 0)
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture)), low, high);
+  else
+    list.AddRectFilled(low, high, theme::colour(0x000000));
+}
+
 // In the lower left corner.
 void drawLegend(const PanelContext& ui, ImDrawList& list, const Rect& area,
                 const ViewPicture& picture) {
@@ -89,6 +97,7 @@ void Viewport::takeInput(PanelContext ui, const Rect& area, const PointerKeys& i
                          float seconds) {
   area_ = area;
   const vec2 size = glm::max(area.size(), vec2(16.0f));
+  ui.session.split().setLineHeight(ImGui::GetTextLineHeight());
   ui.session.resizeViewport(static_cast<int>(std::lround(size.x)),
                             static_cast<int>(std::lround(size.y)));
   ImGui::SetNextWindowPos({area.min.x, area.min.y});
@@ -127,16 +136,38 @@ void Viewport::takeInput(PanelContext ui, const Rect& area, const PointerKeys& i
   ui.session.viewport(in);
 }
 
-void Viewport::draw(PanelContext ui, uint32_t texture, uint32_t second) const {
+// The overlay is drawn over each tile, so that any of them can be worked in.
+void Viewport::drawTiles(const PanelContext& ui, ImDrawList& list,
+                         std::span<const uint32_t> textures) const {
+  const TileLayout layout = ui.session.tiles();
+  const Overlay overlay = ui.session.overlay();
+  list.AddRectFilled({area_.min.x, area_.min.y}, {area_.max.x, area_.max.y},
+                     theme::colour(theme::kBackground));
+  for (int i = 0; i < layout.count; ++i) {
+    const auto side = static_cast<size_t>(i);
+    const vec2 low = area_.min + layout.origin(i), high = low + vec2(layout.size);
+    list.PushClipRect({low.x, low.y}, {high.x, high.y}, true);
+    drawPicture(list, {low, high}, side < textures.size() ? textures[side] : 0);
+    drawMeshes(list, overlay, low);
+    drawShapes(list, overlay, low, ui.scale);
+    drawTexts(list, overlay, low, ui.scale, {low, high}, covered_);
+    list.PopClipRect();
+    drawTileCaption(list, {{low.x, high.y}, {high.x, area_.max.y}}, ui.session.split(), side);
+  }
+}
+
+void Viewport::draw(PanelContext ui, std::span<const uint32_t> textures) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImVec2 low{area_.min.x, area_.min.y}, high{area_.max.x, area_.max.y};
   list.PushClipRect(low, high, true);
-  if (texture != 0)
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture)), low, high);
-  else
-    list.AddRectFilled(low, high, theme::colour(0x000000));
   const SplitView& split = ui.session.split();
-  if (split.on()) drawSecondSide(ui, list, area_, split, second);
+  if (split.showsTiles()) {
+    drawTiles(ui, list, textures);
+    list.PopClipRect();
+    return;
+  }
+  drawPicture(list, area_, textures.empty() ? 0 : textures.front());
+  if (split.on() && textures.size() > 1) drawSecondSide(ui, list, area_, split, textures[1]);
   const Overlay overlay = ui.session.overlay();
   drawMeshes(list, overlay, area_.min);
   drawShapes(list, overlay, area_.min, ui.scale);

@@ -1,0 +1,28 @@
+// How far the pictures of tiles are from one of them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "renderer/backends/radiance_image.h"
+
+namespace lamplighter {
+
+class TileErrors {
+ public:
+  using Picture = std::shared_ptr<RadianceImage>;
+  // Compares the pictures that are new, or all if `base` is. Null: there is none yet. Pictures on a
+  // GPU are left out unless `waits`.
+  void update(std::span<const Picture> pictures, size_t base, bool waits);
+  // The relRMSE of means of 4 × 4 pixels; none: not compared, or the base itself.
+  std::optional<double> of(size_t tile) const;
+
+ private:
+  std::vector<Picture> compared_;
+  std::vector<std::optional<double>> errors_;
+  Picture base_;
+};
+
+}  // namespace lamplighter
