@@ -12,15 +12,12 @@
 #include "renderer/sampling/path_tracing.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
-#include "renderer/surface_light/form_factor.h"
 #include "shaders/shared/brdf.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
 namespace {
 
-// With more triangles, closed forms cost more than they bring: a disk has 64.
-constexpr uint32_t kMostTriangles = 64;
 // How far a lamp reaches, in distances between its samples, but at least in clamp distances; the
 // correction fades in the last part.
 constexpr float kReach = 8.0f, kFadeFrom = 0.75f;
@@ -55,7 +52,7 @@ NearLamps::NearLamps(const RenderScene& scene, const RayCaster& rays, const Ligh
   for (size_t i = 0; i < emitters.size(); ++i) {
     const Emitter& e = emitters[i];
     if (e.kind == EmitterKind::surface && e.cells.empty() && e.reference > 0.0f &&
-        scene.objects[e.object].triangleCount() <= kMostTriangles)
+        scene.objects[e.object].triangleCount() <= MeshFactor::kMostTriangles)
       emitterOf[ids[i]] = i;
   }
   // Which slots samples have depends on former edits.
@@ -80,13 +77,14 @@ NearLamps::NearLamps(const RenderScene& scene, const RayCaster& rays, const Ligh
     lamp.seed = hash4(static_cast<uint32_t>(ids[i].light), ids[i].emitter, 0, kShadowSet);
     lamp.control = controls.ofEmitter.at(ids[i]);
     lamp.link = e.link;
-    lamp.bothSides = e.bothSides;
     lamp.bounds = object.bounds;
     lamp.radiance = e.reference;
     const float spacing = std::sqrt(e.area / static_cast<float>(lamp.vpls.size()));
     lamp.reach = std::max(kReach * spacing, options.clampDistance / kFadeFrom);
+    std::vector<vec3> corners;
     for (uint32_t k = 0; k < object.indexCount; ++k)
-      lamp.corners.push_back(scene.positions[scene.indices[object.firstIndex + k]]);
+      corners.push_back(scene.positions[scene.indices[object.firstIndex + k]]);
+    lamp.factor = MeshFactor(corners, e.bothSides);
     isExact_[e.object] = 1;
     lamps_.push_back(std::move(lamp));
   }
@@ -140,20 +138,6 @@ void NearLamps::findRows(const View& view, vec2 jitter, uint32_t sample, int fir
   });
 }
 
-// π times the form factor of what the point sees of the lamp if nothing is between.
-float NearLamps::factorOf(const Lamp& lamp, const Point& point) {
-  float factor = 0.0f;
-  for (size_t i = 0; i < lamp.corners.size(); i += 3) {
-    const vec3& a = lamp.corners[i];
-    const vec3 cross = glm::cross(lamp.corners[i + 1] - a, lamp.corners[i + 2] - a);
-    const float height = glm::dot(cross, point.position - a);
-    const float least = rayEpsilon(point.position) * glm::length(cross);  // on its own plane
-    if (height > least || (lamp.bothSides && height < -least))
-      factor += polygonFactor(point.position, point.normal, std::span(lamp.corners).subspan(i, 3));
-  }
-  return factor;
-}
-
 float NearLamps::missingAt(const Lamp& lamp, const Point& point, float u,
                            std::vector<float>& upTo) const {
   if (isLeftOut(point.leftOutBy, lamp.link)) return 0.0f;
@@ -165,7 +149,8 @@ float NearLamps::missingAt(const Lamp& lamp, const Point& point, float u,
     upTo.push_back(sum);
   }
   if (!(sum > 0.0f)) return 0.0f;
-  const float all = lamp.radiance * factorOf(lamp, point), missing = all - sum;
+  const float all = lamp.radiance * lamp.factor.at(point.position, point.normal),
+              missing = all - sum;
   if (std::abs(missing) < kLeastShare * all) return 0.0f;
   const float distance = distanceTo(lamp.bounds, point.position) / lamp.reach;
   const float fade = std::min(1.0f, (1.0f - distance) / (1.0f - kFadeFrom));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/corner_light/bias_compensation.h"
+#include "renderer/corner_light/mesh_factor.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/light_controls.h"
 #include "renderer/sampling/light_sample_table.h"
@@ -17,8 +18,9 @@ namespace lamplighter {
 
 class NearLamps {
  public:
-  // Lamps with samples in `table` that are made of few triangles, with the same radiance
-  // everywhere; none without options.emission. All arguments must outlive this object.
+  // Lamps with samples in `table` and the same radiance everywhere, of at most
+  // MeshFactor::kMostTriangles triangles; none without options.emission. All arguments must outlive
+  // this object.
   NearLamps(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
             const LightSampleTable& table, const LightControls& controls,
             const BiasCompensation::Options& options);
@@ -37,11 +39,10 @@ class NearLamps {
   struct Lamp {
     VplId id;  // of its emitter
     uint32_t seed = 0, control = 0, link = 0;
-    bool bothSides = false;
     Bounds bounds;
-    float radiance = 0.0f;          // at the reference brightness [W/(m² sr)]
-    float reach = 0.0f;             // beyond this distance the samples suffice [m]
-    std::vector<vec3> corners;      // of its triangles
+    float radiance = 0.0f;  // at the reference brightness [W/(m² sr)]
+    float reach = 0.0f;     // beyond this distance the samples suffice [m]
+    MeshFactor factor;
     std::vector<shared::Vpl> vpls;  // its samples at the reference brightness
   };
   struct Point {
@@ -50,7 +51,6 @@ class NearLamps {
   };
   // The missing irradiance, without colour.
   float missingAt(const Lamp& lamp, const Point& point, float u, std::vector<float>& upTo) const;
-  static float factorOf(const Lamp& lamp, const Point& point);
 
   const RenderScene& scene_;
   const RayCaster& rays_;

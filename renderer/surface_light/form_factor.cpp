@@ -22,6 +22,12 @@ double angleOf(double cosine, double sine) {
 
 }  // namespace
 
+double edgeFactor(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& n) {
+  const glm::dvec3 cross = glm::cross(a, b);
+  const double sine = glm::length(cross);
+  return sine > 0.0 ? angleOf(glm::dot(a, b), sine) / sine * glm::dot(cross, n) : 0.0;
+}
+
 float polygonFactor(const vec3& x, const vec3& n, std::span<const vec3> polygon) {
   // Relative to x, clipped at the plane through x: a convex polygon gains at most one corner.
   std::array<glm::dvec3, kMostCorners + 1> corners;
@@ -37,13 +43,8 @@ float polygonFactor(const vec3& x, const vec3& n, std::span<const vec3> polygon)
   }
   if (count < 3) return 0.0f;
   double sum = 0.0;
-  for (size_t i = 0; i < count; ++i) {
-    const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % count];
-    const glm::dvec3 cross = glm::cross(a, b);
-    const double sine = glm::length(cross);
-    if (!(sine > 0.0)) continue;
-    sum += angleOf(glm::dot(a, b), sine) / sine * glm::dot(cross, normal);
-  }
+  for (size_t i = 0; i < count; ++i)
+    sum += edgeFactor(corners[i], corners[(i + 1) % count], normal);
   return static_cast<float>(0.5 * std::abs(sum));
 }
 

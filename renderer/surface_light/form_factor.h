@@ -18,4 +18,8 @@ inline constexpr size_t kMostCorners = 8;
 // about 1e-6 for polygons of 1e-3 sr or more.
 float polygonFactor(const vec3& x, const vec3& n, std::span<const vec3> polygon);
 
+// What the edge from a to b, both relative to x and not below the horizon of n, adds to twice that
+// sum: the angle that it spans, projected. Positive for edges that run counterclockwise about n.
+double edgeFactor(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& n);
+
 }  // namespace lamplighter

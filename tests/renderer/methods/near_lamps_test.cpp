@@ -86,6 +86,24 @@ TEST(NearLamps, CastSoftShadows) {
   EXPECT_LT(with, 0.3 * without);
 }
 
+// Tubes and spheres have hundreds of triangles.
+TEST(NearLamps, AreAlsoRound) {
+  LowLamp s;
+  s.scene.find(s.lamp)->local.translation.y = 0.4f;  // above the eye, so that it is not below()
+  for (const AreaShape shape : {AreaShape::tube, AreaShape::sphere}) {
+    AreaLight& light = *s.scene.find(s.lamp)->area;
+    light.shape = shape;
+    light.size = vec2(shape == AreaShape::tube ? 2.0f : 0.3f, 0.2f);
+    s.settings.set("antialias", 16);
+    const Image truth = test::renderReference(s.scene, s.view, 1024, 0);
+    const Image mask = s.below();
+    const double with = compareImages(s.picture(), truth, &mask).relRmse,
+                 without = compareImages(s.without(), truth, &mask).relRmse;
+    EXPECT_LT(with, 0.05) << static_cast<int>(shape);
+    EXPECT_LT(with, 0.3 * without) << static_cast<int>(shape);
+  }
+}
+
 // A picture that is not divided into shares has the same light.
 TEST(NearLamps, NeedNoShares) {
   LowLamp s;
