@@ -1,6 +1,7 @@
 #include "renderer/methods/many_lights/live_bias_compensation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -12,6 +13,28 @@ namespace lamplighter {
 namespace {
 
 constexpr int kPixelsAFrame = 1 << 15;
+// The pixels that may show a box: from `low` to before `high`.
+struct PixelRect {
+  glm::ivec2 low, high;
+};
+
+PixelRect pixelsOf(const View& view, const Bounds& box) {
+  const glm::ivec2 all(view.width, view.height);
+  vec2 low(INFINITY), high(-INFINITY);
+  for (int corner = 0; corner < 8; ++corner) {
+    const vec3 at(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                  corner & 4 ? box.max.z : box.min.z);
+    const vec3 seen = view.project(at);
+    if (!(seen.z > 0.0f)) return {glm::ivec2(0), all};  // it reaches behind the eye
+    low = glm::min(low, vec2(seen));
+    high = glm::max(high, vec2(seen));
+  }
+  const vec2 limit(all);
+  const glm::ivec2 first = glm::floor(glm::clamp(low - 1.0f, vec2(0.0f), limit)),
+                   last = glm::ceil(glm::clamp(high + 1.0f, vec2(0.0f), limit));
+  return {glm::min(first, last), last};
+}
+
 // Limits of the gain: where there was almost no light the ratio has no meaning.
 constexpr float kMostGain = 2.0f, kLeastGain = 0.5f;
 
@@ -61,6 +84,18 @@ void LiveBiasCompensation::takeGains(const Image& without, const Image& with) {
     }
   });
   gains_ = std::make_shared<const Image>(std::move(gains));
+}
+
+void LiveBiasCompensation::dropGains(const View& view, std::span<const Bounds> objects) {
+  if (!gains_ || objects.empty()) return;
+  if (gains_->width != view.width || gains_->height != view.height) return;
+  Image kept = *gains_;
+  for (const Bounds& object : objects) {
+    const PixelRect r = pixelsOf(view, object);
+    for (int y = r.low.y; y < r.high.y; ++y)
+      std::fill(&kept.at(r.low.x, y), &kept.at(r.low.x, y) + (r.high.x - r.low.x), vec3(1.0f));
+  }
+  gains_ = std::make_shared<const Image>(std::move(kept));
 }
 
 std::shared_ptr<RadianceImage> LiveBiasCompensation::scale(
