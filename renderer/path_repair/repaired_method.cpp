@@ -79,8 +79,10 @@ class RepairedMethod final : public GiMethod {
       resolveEdges(in, options.paths > 0, out, stats);
       keep(in, isStill, out);
     }
-    if (options.paths > 0 && out.settled)
+    if (options.paths > 0 && out.settled && isStill)
       repair(in, options, out, stats);
+    else if (options.paths > 0 && out.settled)
+      showFirst(out);
     else if (options.paths > 0 && isStill && mayPreview(in, out))
       preview(in, options, skipsMethod, out, stats);
     else
@@ -144,6 +146,12 @@ class RepairedMethod final : public GiMethod {
       if (of.spec->kind == StatisticKind::work) of.value = 0.0;
     out.failure = nullptr;
     return out;
+  }
+
+  // An edit that settles at once, of the brightness of a light, is shown without waiting for paths.
+  void showFirst(GiOutput& out) {
+    repair_.restart();
+    out.refined = false;
   }
 
   void repair(const FrameInputs& in, const PathRepair::Options& options, GiOutput& out,

@@ -114,6 +114,23 @@ TEST(NearLamps, NeedNoShares) {
   EXPECT_LT(compareImages(s.picture(), shares, &mask).relRmse, 0.02);
 }
 
+// While the lamp moves pixels keep their gain, but not those that show the lamp now.
+TEST(NearLamps, DoNotBrightenADraggedLamp) {
+  LowLamp s;
+  s.settings.set("updates", 1);
+  FrameRenderer renderer(makeCpuBackend());
+  test::renderSettled(renderer, s.scene, SceneChanges::all(), s.view, s.settings);
+  const Scene before = s.scene;
+  s.scene.find(s.lamp)->local.translation = vec3(0.0f, 0.05f, -0.6f);  // in front of the floor
+  s.scene.find(s.lamp)->local.rotation = glm::angleAxis(kPi, vec3(0, 1, 0));  // faces the eye
+  const GiOutput out =
+      renderer.render({s.scene, compare(before, s.scene), s.view, "many_lights", s.settings});
+  ASSERT_FALSE(out.settled);
+  float most = 0.0f;
+  for (const vec3& p : out.radiance->pixels().pixels) most = std::max(most, p.x);
+  EXPECT_EQ(most, 4.0f);  // its radiance
+}
+
 // An object that the lamp leaves out gets nothing of it.
 TEST(NearLamps, KeepToTheirLinks) {
   LowLamp s;

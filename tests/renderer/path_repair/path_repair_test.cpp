@@ -244,6 +244,17 @@ TEST_F(Repaired, AnEditReturnsToTheLivePicture) {
                        test::freshPicture(makeCpuBackend(), scene, view, settings)));
 }
 
+// A change of brightness settles in its frame, which does not wait for paths.
+TEST_F(Repaired, ABrighterLampIsShownBeforePathsAreTraced) {
+  rest(SceneChanges::all());
+  GiOutput out = step(edit([&](Scene& s) { s.find(lamp)->area->radiance *= 2.0f; }));
+  EXPECT_TRUE(out.settled);
+  EXPECT_FALSE(out.refined);
+  EXPECT_EQ(out.stats.of("repair_rays"), 0.0);
+  out = step();
+  EXPECT_GT(out.stats.of("repair_rays"), 0.0);
+}
+
 TEST_F(Repaired, IsOffUnlessTheCallerAllowsIt) {
   const auto picture = rest(SceneChanges::all(), false).radiance;
   const GiOutput out = step({}, false);

@@ -3,8 +3,10 @@
 //   lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]
 //   lamplighter_methods_table LEVEL METHOD strip FILE.png   (drag_strip.h)
 // METHOD: a method, with its parameters as in "many_lights,indirect=samples"; "truth" writes the
-// references, pictures of the path tracer after each step, into the folder REFERENCES. Prints a row
-// of CSV for each step; to CURVES it appends the error over time.
+// references, pictures of the path tracer after each step, into the folder REFERENCES, and prints
+// the paths a pixel and the noise of the worst of them. Prints a row of CSV for each step; to
+// CURVES it appends the error over time.
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -31,7 +33,9 @@ namespace {
 namespace fs = std::filesystem;
 using test::LevelRecording;
 
-constexpr int kPaths = 64;
+// References get paths in passes until their noise is small enough, but at most so many.
+constexpr int kPathsOfPass = 32, kMostPaths = 256;
+constexpr double kNoise = 0.01;
 // Not that of the method reference, whose noise would be the same.
 constexpr int kSeed = 77;
 constexpr int kBlock = PlayedSession::kBlock;
@@ -45,24 +49,57 @@ fs::path referenceFile(const fs::path& folder, size_t step) {
 }
 
 // By the method reference with its defaults, so that gloss is shown as every method shows it.
+Image tracedPass(FrameRenderer& renderer, const Scene& scene, const View& view, int pass) {
+  Settings settings;
+  settings.set("samples_per_pixel", kPathsOfPass);
+  settings.set("bounces", PlayedSession::kBounces);
+  settings.set("seed", kSeed + pass);
+  const std::string method = "reference";
+  SceneChanges changes = pass == 0 ? SceneChanges::all() : SceneChanges();
+  GiOutput out;
+  while (!out.settled)
+    out = renderer.render({scene, std::exchange(changes, {}), view, method, settings});
+  return out.radiance->pixels();
+}
+
+struct Traced {
+  Image mean;
+  int paths = 0;
+  double noise = 0.0;  // relRMSE of its blocks
+};
+
+// The noise is half the difference between the means of odd and even passes.
+Traced traced(const Scene& scene, const View& view) {
+  FrameRenderer renderer(makeCpuBackend());
+  std::array<Image, 2> sums = {Image(view.width, view.height), Image(view.width, view.height)};
+  Traced out;
+  do {
+    for (Image& sum : sums) {
+      const Image pass = tracedPass(renderer, scene, view, out.paths / kPathsOfPass);
+      for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += pass.pixels[i];
+      out.paths += kPathsOfPass;
+    }
+    out.noise = 0.5 * relRmse(averageBlocks(sums[0], kBlock), averageBlocks(sums[1], kBlock));
+  } while (out.noise > kNoise && out.paths < kMostPaths);
+  out.mean = sums[0];
+  for (size_t i = 0; i < out.mean.pixels.size(); ++i)
+    out.mean.pixels[i] = (out.mean.pixels[i] + sums[1].pixels[i]) *
+                         (static_cast<float>(kPathsOfPass) / static_cast<float>(out.paths));
+  return out;
+}
+
 void writeReferences(const LevelRecording& recording, const fs::path& folder) {
   fs::create_directories(folder);
   Scene scene = recording.scene();
-  Settings settings;
-  settings.set("samples_per_pixel", kPaths);
-  settings.set("bounces", PlayedSession::kBounces);
-  settings.set("seed", kSeed);
-  const std::string method = "reference";
+  Traced worst;
   for (size_t step = 0; step < LevelRecording::kSteps.size(); ++step) {
     const auto state = recording.after(step, LevelRecording::kSteps[step].frames);
     recording.apply(state, scene);
-    FrameRenderer renderer(makeCpuBackend());
-    SceneChanges changes = SceneChanges::all();
-    GiOutput out;
-    while (!out.settled)
-      out = renderer.render({scene, std::exchange(changes, {}), state.view, method, settings});
-    writeExr(out.radiance->pixels(), referenceFile(folder, step));
+    const Traced found = traced(scene, state.view);
+    if (found.noise >= worst.noise) worst = {{}, found.paths, found.noise};
+    writeExr(found.mean, referenceFile(folder, step));
   }
+  std::cout << fmt::format("{},{:.4f}\n", worst.paths, worst.noise);
 }
 
 // Of the process, so far.

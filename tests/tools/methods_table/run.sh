@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Plays one recording on every level with every method and with the defaults: rows of a Markdown table
-# for each step. CSV files of the rows and of the error over time, and a plot, stay in a folder.
+# Plays one recording on every level with every method and with the defaults: a Markdown table for each
+# level. CSV files of the rows and of the error over time, and a plot, stay in a folder; levels that
+# are not played keep the rows that the folder has, so that a long table can be made in parts.
 # usage: tests/tools/methods_table/run.sh PROGRAM FOLDER [PART...]   (./dev methods-table; parts of levels' names)
 set -eu
 cd "$(dirname "$0")/../../.."
@@ -14,9 +15,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$out"
 header="level,method,step,frame_ms,worst_frame_ms,error_moving,seconds_to_10,seconds_to_5,seconds_settled,error_end,frames,peak_mib"
-echo "$header" >"$out/methods.csv"
-curves=$out/methods_curves.csv
-echo "level,method,step,seconds,error" >"$curves"
+rows=$out/methods.csv curves=$out/methods_curves.csv truths=$out/methods_truths.csv
+[ "$(head -n 1 "$rows" 2>/dev/null)" = "$header" ] || echo "$header" >"$rows"
+[ -f "$truths" ] || echo "level,paths,noise" >"$truths"
+[ -f "$curves" ] || echo "level,method,step,seconds,error" >"$curves"
 
 for file in assets/scenes/{cornell_style,pillar_room,door_ajar}.gltf \
   ../shared/scenes/{living-room,bathroom,classroom,bedroom,modern-hall,kenney-fps-level,zdm2-map,candela-city}/*.gl*; do
@@ -25,20 +27,32 @@ for file in assets/scenes/{cornell_style,pillar_room,door_ajar}.gltf \
   [ $# -eq 0 ] && wanted=1 || wanted=0
   for part in "$@"; do case $level in *"$part"*) wanted=1 ;; esac; done
   [ $wanted -eq 1 ] || continue
-  "$program" "$file" truth "$work/truth" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
+  sed -i "/^$level,/d" "$rows" "$curves" "$truths"
+  "$program" "$file" truth "$work/truth" >"$work/noise" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
+  echo "$level,$(cat "$work/noise")" >>"$truths"
   for i in "${!methods[@]}"; do
     # One process each, so that the peak of memory is that of the method.
     "$program" "$file" "${methods[$i]}" "$work/truth" "$work/own" >"$work/rows" 2>"$work/log" ||
       { cat "$work/log" >&2; exit 1; }
-    sed "s/\"[^\"]*\"/${names[$i]}/" "$work/rows" >>"$out/methods.csv"
+    sed "s/\"[^\"]*\"/${names[$i]}/" "$work/rows" >>"$rows"
     sed "s/\"[^\"]*\"/${names[$i]}/" "$work/own" >>"$curves"
     rm "$work/own"
   done
 done
-echo "| level | method | step | ms a frame | worst | error moving | 10% | 5% | settled | error at rest | peak MiB |"
-echo "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
-awk -F, 'NR > 1 { printf "| %s | %s | %s | %s | %s | %.1f%% | %s | %s | %s | %.1f%% | %s |\n",
-  $1, $2, $3, $4, $5, 100 * $6, $7, $8, $9, 100 * $10, $12 }' "$out/methods.csv"
+# A table for each level: of opening the first frame and its error, and how long it takes from there; of
+# motions the mean of frames and the error of the first frame after the last motion.
+awk -F, '
+  FNR == NR { truth[$1] = sprintf("%s paths a pixel, noise %.1f%%", $2, 100 * $3); next }
+  FNR == 1 { next }
+  $1 != level {
+    level = $1
+    printf "\n**%s** (reference: %s)\n\n", level, truth[level]
+    print "| method | open | to 10%, to 5%, settled | at rest | drag a light | move an object | brighter | fly | MiB |"
+    print "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+  }
+  $3 == "open" { printf "| %s | %d ms, %.1f%% | %s, %s, %s | %.1f%% |", $2, $4, 100 * $6, $7, $8, $9, 100 * $10 }
+  $3 != "open" { printf " %d ms, %.1f%% |", $4, 100 * $6 }
+  $3 == "fly" { printf " %s |\n", $12 }' "$truths" "$rows"
 
 # A panel for each level: the error over the time since it was opened.
 mapfile -t levels < <(tail -n +2 "$curves" | cut -d, -f1 | uniq)
