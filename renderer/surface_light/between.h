@@ -3,17 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "renderer/base/math.h"
 
 namespace lamplighter {
 
-// A sphere around a box, or a point.
+// A sphere around a box, a point, or other spheres.
 struct Ball {
   vec3 centre;
   float radius;
   explicit Ball(const Bounds& box) : centre(box.centre()), radius(box.radius()) {}
   explicit Ball(const vec3& point) : centre(point), radius(0.0f) {}
+  explicit Ball(std::span<const Ball> balls) : centre(0.0f), radius(0.0f) {
+    Bounds bounds;
+    for (const Ball& b : balls) {
+      bounds.add(b.centre - b.radius);
+      bounds.add(b.centre + b.radius);
+    }
+    if (bounds.empty()) return;
+    centre = bounds.centre();
+    for (const Ball& b : balls)
+      radius = std::max(radius, glm::distance(centre, b.centre) + b.radius);
+  }
 };
 
 // Whether the hull of two spheres may touch a third one. Conservative.

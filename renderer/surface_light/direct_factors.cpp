@@ -24,6 +24,9 @@ constexpr float kLift = 0.04f;  // of rays along a surface [edges of elements]
 // Corners whose light is summed together, in registers and the nearest cache.
 constexpr size_t kCornersASum = 1024;
 
+// Elements that are tested together for what stands before them.
+constexpr size_t kLeavesAGroup = 32;
+
 // Of so many elements one shows the light of all until that of each is found: of more where they
 // are many for the rays of a call. An element of a new light takes about kRaysALeader.
 constexpr uint32_t kLeastSpread = 8, kMostSpread = 32;
@@ -194,28 +197,50 @@ void DirectFactors::findBalls(const Scene& now, bool isNewMesh, const std::vecto
   });
 }
 
-// Marks what may differ.
+// Marks what may differ. Elements beside each other are tested together first.
 void DirectFactors::outdate(const Work& work, const std::vector<bool>& isMoved,
                             std::span<const Bounds> boxes) {
-  const Scene& now = work.now;
-  tbb::parallel_for(size_t{0}, now.mesh.leaves(), [&](size_t k) {
-    const auto leaf = static_cast<uint32_t>(k);
-    const uint32_t object = now.mesh.objectOfLeaf(leaf);
-    if (object == SurfaceMesh::kUnused) {
-      std::ranges::fill(staleOf(k), 0u);
-      return;
+  const SurfaceMesh& mesh = work.now.mesh;
+  const size_t emitters = work.emitters.size();
+  std::vector<Ball> lights, moved;
+  for (const EmitterFactor& e : work.emitters) lights.emplace_back(e.bounds());
+  for (const Bounds& b : boxes) moved.emplace_back(b);
+  std::vector<size_t> fresh;
+  for (size_t e = 0; e < emitters; ++e)
+    if (work.isNew[e]) fresh.push_back(e);
+  const auto mayDiffer = [&](const Ball& ball, size_t e) {
+    return work.emitters[e].bounds().empty() || std::ranges::any_of(moved, [&](const Ball& m) {
+             return mayBeBetween(ball, lights[e], m);
+           });
+  };
+  const size_t groups = (mesh.leaves() + kLeavesAGroup - 1) / kLeavesAGroup;
+  tbb::parallel_for(size_t{0}, groups, [&](size_t group) {
+    const size_t first = group * kLeavesAGroup;
+    const size_t last = std::min(first + kLeavesAGroup, mesh.leaves());
+    std::vector<size_t> near;  // emitters
+    if (!boxes.empty()) {
+      std::vector<Ball> used;
+      for (size_t k = first; k < last; ++k)
+        if (mesh.objectOfLeaf(static_cast<uint32_t>(k)) != SurfaceMesh::kUnused)
+          used.push_back(balls_[k]);
+      const Ball all{std::span<const Ball>(used)};
+      for (size_t e = 0; e < emitters && !used.empty(); ++e)
+        if (!work.isNew[e] && mayDiffer(all, e)) near.push_back(e);
     }
-    const bool isOther = k >= wasMixed_.size() || wasMixed_[k] != now.isMixed[k];
-    for (size_t e = 0; e < work.emitters.size(); ++e) {
-      if (work.isNew[e] || isMoved[object] || isOther) {
-        setStale(k, e);
-      } else if (!boxes.empty() && !isStale(k, e)) {
-        const Bounds& light = work.emitters[e].bounds();
-        if (light.empty() || std::ranges::any_of(boxes, [&](const Bounds& b) {
-              return mayBeBetween(balls_[k], Ball(light), Ball(b));
-            }))
-          setStale(k, e);
+    for (size_t k = first; k < last; ++k) {
+      const uint32_t object = mesh.objectOfLeaf(static_cast<uint32_t>(k));
+      if (object == SurfaceMesh::kUnused) {
+        std::ranges::fill(staleOf(k), 0u);
+        continue;
       }
+      const bool isOther = k >= wasMixed_.size() || wasMixed_[k] != work.now.isMixed[k];
+      if (isMoved[object] || isOther) {
+        for (size_t e = 0; e < emitters; ++e) setStale(k, e);
+        continue;
+      }
+      for (const size_t e : fresh) setStale(k, e);
+      for (const size_t e : near)
+        if (!isStale(k, e) && mayDiffer(balls_[k], e)) setStale(k, e);
     }
   });
 }
