@@ -16,16 +16,34 @@ constexpr double kMostLinkedTexels = 10'000.0;
 // 2.4 s, with imperfect shadow maps 0.2 s.
 constexpr size_t kMostMeshedTriangles = 600'000;
 
+// Lamps for which levels of many triangles take long to settle with meshes, which find the light of
+// each lamp on each element: 100 lamps in a hall 19 s, with imperfect shadow maps 7 s.
+constexpr size_t kMostMeshedLamps = 32;
+
+// Objects and punctual lights that shine while they are on.
+size_t lampsOf(const RenderScene& scene) {
+  const auto shines = [](const vec3& v) { return v != vec3(0.0f); };
+  const auto objects = std::ranges::count_if(scene.objects, [&](const RenderObject& o) {
+    return !o.isEmpty() && shines(scene.nominalEmission[static_cast<size_t>(o.material)]);
+  });
+  const auto punctuals = std::ranges::count_if(
+      scene.punctuals, [&](const RenderPunctual& p) { return shines(p.nominal); });
+  return static_cast<size_t>(objects + punctuals);
+}
+
 }  // namespace
 
 CarrierChoice carrierFor(const RenderScene& scene, float texel) {
   const auto meshes = [](std::string reason) {
     return CarrierChoice{BouncedCarrier::meshes, std::move(reason)};
   };
-  if (!scene.nominalSky.isBlack()) return meshes("the sky gives light");
   size_t triangles = 0;
   for (const RenderObject& o : scene.objects)
     if (!o.isAreaLight) triangles += o.triangleCount();
+  if (const size_t lamps = lampsOf(scene);
+      lamps > kMostMeshedLamps && static_cast<double>(triangles) > kMostLinkedTexels)
+    return {BouncedCarrier::imperfect, fmt::format("{} lamps are many for meshes", lamps)};
+  if (!scene.nominalSky.isBlack()) return meshes("the sky gives light");
   if (triangles > kMostMeshedTriangles)
     return {BouncedCarrier::imperfect, fmt::format("{} triangles are many for meshes", triangles)};
   // Before the area of a large scene is summed.

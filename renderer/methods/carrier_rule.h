@@ -19,7 +19,7 @@ struct CarrierChoice {
 // while lamps move, and has the least error. Meshes where surfaces are finer than texels, where the
 // sky gives light (its direct light is on meshes, too), and where surfaces are glossy (mirrors see
 // meshes). Samples with imperfect shadow maps where meshes would take seconds for an edit: levels
-// of very many triangles without a sky. `texel`: wanted side [m].
+// of very many triangles without a sky, or of many lamps. `texel`: wanted side [m].
 CarrierChoice carrierFor(const RenderScene& scene, float texel);
 
 }  // namespace lamplighter

@@ -70,5 +70,23 @@ TEST(CarrierRule, ImperfectShadowMapsInLevelsOfVeryManyTriangles) {
   EXPECT_EQ(chosen(scene).carrier, BouncedCarrier::meshes);
 }
 
+// Also under a sky; but not in rooms of few triangles, nor for lamps that shine black.
+TEST(CarrierRule, ImperfectShadowMapsInLevelsOfManyLamps) {
+  Scene scene = room();
+  scene.sky = vec3(1.0f);
+  std::vector<NodeId> lamps;
+  for (int i = 0; i < 32; ++i)
+    lamps.push_back(test::addRectangleLight(scene, vec3(0.0f, 1.9f, 0.1f * static_cast<float>(i)),
+                                            vec2(0.05f), vec3(10.0f)));
+  EXPECT_EQ(chosen(scene).carrier, BouncedCarrier::meshes);
+  // 2 · 60 · 120 triangles.
+  test::addMesh(scene, test::sphereMesh(0.5f, 60, 0.0f, test::addMaterial(scene, vec3(0.5f))));
+  const CarrierChoice choice = chosen(scene);
+  EXPECT_EQ(choice.carrier, BouncedCarrier::imperfect);
+  EXPECT_THAT(choice.reason, HasSubstr("33 lamps"));
+  scene.find(lamps.front())->area->radiance = vec3(0.0f);
+  EXPECT_EQ(chosen(scene).carrier, BouncedCarrier::meshes);
+}
+
 }  // namespace
 }  // namespace lamplighter
