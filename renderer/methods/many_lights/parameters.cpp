@@ -54,7 +54,8 @@ const ParameterTable<P>& manyLightsParameters() {
        "is. field: texels exchange light with what they see in a fixed set of directions (method "
        "light_field), with the sky as well. automatic: on the cpu backend links in rooms without "
        "sky and gloss whose surfaces are "
-       "larger than texels, imperfect in levels of very many triangles without a sky or of more than 32 lamps, otherwise "
+       "larger than texels, imperfect in levels of very many triangles without a sky or of more "
+       "than 32 lamps, otherwise "
        "meshes; samples on gl and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
