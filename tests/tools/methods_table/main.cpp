@@ -2,7 +2,8 @@
 // editor's window, and compares every frame with the reference.
 //   lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]
 //   lamplighter_methods_table LEVEL METHOD strip FILE.png   (drag_strip.h)
-// METHOD: a method, with its parameters as in "many_lights,indirect=samples"; "truth" writes the
+// METHOD: a method, with its parameters as in "many_lights,indirect=samples", or a preset as
+// "preset.draft"; "truth" writes the
 // references, pictures of the path tracer after each step, into the folder REFERENCES, and prints
 // the paths a pixel and the noise of the worst of them. Prints a row of CSV for each step; to
 // CURVES it appends the error over time.

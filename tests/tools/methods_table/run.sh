@@ -11,6 +11,8 @@ shift 2
 methods=(many_lights "many_lights,indirect=samples" multi_mesh surface_shadow_maps imperfect_shadow_maps
   light_field reference)
 names=("default" many_lights multi_mesh surface_shadow_maps imperfect_shadow_maps light_field reference)
+# Presets differ from the defaults in amounts, which three levels tell.
+presets=(preset.draft preset.final) preset_levels=" pillar_room living-room modern-hall "
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$out"
@@ -30,12 +32,16 @@ for file in assets/scenes/{cornell_style,pillar_room,door_ajar}.gltf \
   sed -i "/^$level,/d" "$rows" "$curves" "$truths"
   "$program" "$file" truth "$work/truth" >"$work/noise" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
   echo "$level,$(cat "$work/noise")" >>"$truths"
-  for i in "${!methods[@]}"; do
+  played=("${methods[@]}") called=("${names[@]}")
+  if [[ $preset_levels == *" $level "* ]]; then
+    played+=("${presets[@]}") called+=("${presets[@]}")
+  fi
+  for i in "${!played[@]}"; do
     # One process each, so that the peak of memory is that of the method.
-    "$program" "$file" "${methods[$i]}" "$work/truth" "$work/own" >"$work/rows" 2>"$work/log" ||
+    "$program" "$file" "${played[$i]}" "$work/truth" "$work/own" >"$work/rows" 2>"$work/log" ||
       { cat "$work/log" >&2; exit 1; }
-    sed "s/\"[^\"]*\"/${names[$i]}/" "$work/rows" >>"$rows"
-    sed "s/\"[^\"]*\"/${names[$i]}/" "$work/own" >>"$curves"
+    sed "s/\"[^\"]*\"/${called[$i]}/" "$work/rows" >>"$rows"
+    sed "s/\"[^\"]*\"/${called[$i]}/" "$work/own" >>"$curves"
     rm "$work/own"
   done
 done
