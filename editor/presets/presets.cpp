@@ -1,6 +1,7 @@
 #include "editor/presets/presets.h"
 
 #include <functional>
+#include <optional>
 
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/path_repair/repaired_method.h"
@@ -10,25 +11,32 @@ namespace {
 
 // The values of one parameter in draft, work and final. The values of work are the defaults. The
 // number of bounces and the frame time are not part of quality: they have controls of their own.
+// Drags with draft follow sooner, because light on surfaces is found at fewer places by fewer rays.
+// Final differs from work in how long a picture at rest gets better: by the methods table
+// (docs/results/methods.md) more light samples and finer maps only make drags slower.
 struct Row {
   const ParameterSpec& spec;
-  ParameterValue draft, final;
+  ParameterValue draft;
+  std::optional<ParameterValue> final = std::nullopt;  // none: the default
 };
 
 const std::vector<Row>& rows() {
   const auto& p = manyLightsParameters();
   static const std::vector<Row> all{
-      {p["vpls"], 100, 2000},
-      {p["importance"], 4, 16},
-      {p["map_resolution"], 32, 128},
-      {p["settled_map_scale"], 1, 6},
-      {p["map_memory"], 64, 2048},
-      {p["light_map_texel"], 0.2f, 0.05f},
-      {p["block"], std::string("8"), std::string("2")},
-      {p["antialias"], 1, 16},
-      {p["corner_light"], false, true},
+      {p["vpls"], 100},
+      {p["importance"], 4},
+      {p["map_resolution"], 32},
+      {p["settled_map_scale"], 1},
+      {p["map_memory"], 64},
+      {p["light_map_texel"], 0.2f},
+      {p["block"], std::string("8")},
+      {p["antialias"], 1},
+      {p["corner_light"], false},
+      {p["coarse_edge"], 0.5f},
+      {p["gather_rays"], 32},
+      {p["link_memory"], 8},
       {p["refine"], 0, 1 << 20},
-      {repairParameters()["repair"], 0, 4096},
+      {repairParameters()["repair"], 16, 4096},
       {sampleParameters()["samples_per_pixel"], 16, 1024},
   };
   return all;
@@ -46,15 +54,17 @@ Preset made(std::string name, std::string label, std::string help,
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all{
       made("draft", "Draft",
-           "Few light samples and coarse shadows: fastest response to edits, lowest accuracy.",
+           "Few light samples, coarse light on surfaces and few paths: fastest response to edits, "
+           "lowest accuracy.",
            [](const Row& row) { return row.draft; }),
       made("work", "Work",
            "The defaults: fast enough to drag lights, accurate enough to judge them.",
            [](const Row& row) { return row.spec.defaultValue; }),
       made("final", "Final",
-           "Many light samples, fine shadows, antialiasing and long repair at rest: highest "
-           "accuracy, slowest response to edits.",
-           [](const Row& row) { return row.final; }),
+           "As work while anything changes; at rest the picture gets better for as long as you "
+           "wait: "
+           "4,096 paths a pixel.",
+           [](const Row& row) { return row.final.value_or(row.spec.defaultValue); }),
   };
   return all;
 }

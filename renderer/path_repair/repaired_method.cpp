@@ -103,11 +103,13 @@ class RepairedMethod final : public GiMethod {
   Inspection inspect() const override { return method_->inspect(); }
 
  private:
-  // A picture that is repaired is not refined with light samples.
+  // A picture that is repaired is not refined with light samples, nor with finer shadow maps: paths
+  // tell what is seen sooner.
   GiOutput renderMethod(const FrameInputs& in, bool isRepaired) {
     if (!isRepaired) return method_->render(in);
     Settings settings = in.settings;
     settings.set("refine", 0);
+    settings.set("settled_map_scale", 1);
     return method_->render({in.scene, in.changes, in.view, in.backend, in.services, settings,
                             in.frame, in.stopwatch, in.stageTimes, in.lightOnly, in.part});
   }

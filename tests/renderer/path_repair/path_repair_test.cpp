@@ -148,7 +148,7 @@ TEST_F(Repaired, EditsLeaveFreshBits) {
 // Before a picture has settled it is repaired, too, and that leaves no trace.
 TEST_F(Repaired, PreviewsThePictureBeforeItSettles) {
   const Image reference = averageBlocks(test::renderReference(scene, view, 1024, kBounces), 4);
-  settings.set("updates", 4);  // so that it settles slowly
+  settings.set("updates", 2);  // so that it settles slowly
   for (const char* carrier : {"samples", "meshes"}) {
     settings.set("indirect", std::string(carrier));
     previewRows = 0;
@@ -180,7 +180,7 @@ TEST_F(Repaired, PreviewsThePictureBeforeItSettles) {
 
 // Frames that only trace paths: the method works in one of four, until there are enough of them.
 TEST_F(Repaired, FramesOfPathsAloneLeaveFreshBits) {
-  settings.set("updates", 4);
+  settings.set("updates", 2);
   const Image settled = fresh();
   renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
   previewRows = 24;
@@ -200,7 +200,7 @@ TEST_F(Repaired, FramesOfPathsAloneLeaveFreshBits) {
   EXPECT_GT(step(moveBox(0.1f)).stats.updates, 0);
   EXPECT_GT(step().stats.updates, 0);
   EXPECT_EQ(step().stats.updates, 0);
-  settings.set("updates", 5);  // a budget
+  settings.set("updates", 3);  // a budget
   EXPECT_EQ(step().stats.updates, 0);
   settings.set("bounces", kBounces - 1);
   EXPECT_GT(step().stats.updates, 0);
@@ -210,7 +210,7 @@ TEST_F(Repaired, FramesOfPathsAloneLeaveFreshBits) {
 
 // Nor while the camera moves.
 TEST_F(Repaired, AFlightTracesNoPaths) {
-  settings.set("updates", 4);
+  settings.set("updates", 2);
   previewRows = 48;
   step(SceneChanges::all());
   for (int frame = 0; frame < 4; ++frame) {
@@ -253,6 +253,21 @@ TEST_F(Repaired, ABrighterLampIsShownBeforePathsAreTraced) {
   EXPECT_EQ(out.stats.of("repair_rays"), 0.0);
   out = step();
   EXPECT_GT(out.stats.of("repair_rays"), 0.0);
+}
+
+// Paths tell what is seen; without them shadow maps become finer.
+TEST_F(Repaired, TakesTheTimeOfFinerShadowMaps) {
+  for (const bool repairs : {true, false}) {
+    renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
+    double sharpened = 0.0;
+    GiOutput out = step(SceneChanges::all(), repairs);
+    for (int i = 0; i < 4000 && !out.settled; ++i) {
+      out = step({}, repairs);
+      sharpened += out.stats.of("maps_sharpened");
+    }
+    ASSERT_TRUE(out.settled);
+    EXPECT_EQ(sharpened > 0.0, !repairs);
+  }
 }
 
 TEST_F(Repaired, IsOffUnlessTheCallerAllowsIt) {
