@@ -200,6 +200,25 @@ bool RayCaster::occluded(const Ray& ray) const {
   return r.tfar < 0.0f;
 }
 
+std::array<bool, 8> RayCaster::occluded8(std::span<const Ray, 8> rays) const {
+  alignas(32) RTCRayHit8 r{};
+  alignas(32) int valid[8];
+  setRays(rays, r, valid);
+  Impl::Query still = impl_->query(Surfaces::all, true, true);
+  rtcOccluded8(valid, impl_->embree.still(), &still.embree, &r.ray);
+  if (impl_->embree.hasMovers()) {
+    for (size_t i = 0; i < 8; ++i)
+      if (r.ray.tfar[i] < 0.0f) valid[i] = 0;
+    keepTouching(r.ray, impl_->embree.movingBounds(), valid);
+    Impl::Query moving = impl_->query(Surfaces::all, false);
+    if (std::any_of(valid, valid + 8, [](int lane) { return lane != 0; }))
+      rtcOccluded8(valid, impl_->embree.moving(), &moving.embree, &r.ray);
+  }
+  std::array<bool, 8> occluded;
+  for (size_t i = 0; i < 8; ++i) occluded[i] = rays[i].tFar >= 0.0f && r.ray.tfar[i] < 0.0f;
+  return occluded;
+}
+
 Hit RayCaster::Impl::leastHitAt(const Ray& ray, Surfaces which, float t) const {
   Hit least;
   for (const bool ofStill : {true, false}) {

@@ -7,6 +7,7 @@
 // and the choice may differ between processors.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 
@@ -48,6 +49,9 @@ class RayCaster {
 
   Hit intersect(const Ray& ray, Surfaces which = Surfaces::all) const;
   bool occluded(const Ray& ray) const;
+  static constexpr size_t kLanes = 8;  // rays that are traced together
+  // Eight rays; tFar < 0 disables a lane, which is not occluded then. Fastest for coherent rays.
+  std::array<bool, kLanes> occluded8(std::span<const Ray, kLanes> rays) const;
   // Traces eight rays; tFar < 0 disables a lane. Fastest for coherent rays (similar origins or
   // directions).
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,

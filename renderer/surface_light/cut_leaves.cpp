@@ -1,6 +1,7 @@
 #include "renderer/surface_light/cut_leaves.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include <tbb/parallel_for.h>
@@ -58,19 +59,38 @@ uint64_t CutLeaves::update(const RenderScene& scene, const RayCaster& rays, cons
     });
   }
   std::atomic<uint64_t> traced = 0;
-  tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {
-    const auto leaf = static_cast<uint32_t>(k);
-    const uint32_t object = mesh.objectOfLeaf(leaf);
-    if (object == SurfaceMesh::kUnused || isFar[object] || mesh.isCluster(leaf)) return;
-    const Corners corners = cornersOf(scene, mesh, leaf);
-    const auto isNear = [&](const Bounds& b) { return touches(corners.bounds, b); };
-    if (!isNewMesh && !isMoved[object] && std::ranges::none_of(boxes, isNear)) return;
-    mayDiffer_[k] = 1;
-    isCut_[k] = 0;
-    for (size_t c = 0; c < 3 && !isCut_[k]; ++c) {
-      const vec3& a = corners.positions[c];
-      isCut_[k] = rays.occluded({a, 0.0f, corners.positions[(c + 1) % 3] - a, 1.0f}) ? 1 : 0;
-      ++traced;
+  const size_t groups = (mesh.leaves() + RayCaster::kLanes - 1) / RayCaster::kLanes;
+  tbb::parallel_for(size_t{0}, groups, [&](size_t group) {
+    // Rays along one side of each of eight elements that lie near each other.
+    std::array<std::array<Ray, RayCaster::kLanes>, 3> sides;
+    for (auto& rays8 : sides)
+      for (Ray& ray : rays8) ray.tFar = -1.0f;
+    bool isAny = false;
+    for (size_t lane = 0; lane < RayCaster::kLanes; ++lane) {
+      const size_t k = group * RayCaster::kLanes + lane;
+      if (k >= mesh.leaves()) break;
+      const auto leaf = static_cast<uint32_t>(k);
+      const uint32_t object = mesh.objectOfLeaf(leaf);
+      if (object == SurfaceMesh::kUnused || isFar[object] || mesh.isCluster(leaf)) continue;
+      const Corners corners = cornersOf(scene, mesh, leaf);
+      const auto isNear = [&](const Bounds& b) { return touches(corners.bounds, b); };
+      if (!isNewMesh && !isMoved[object] && std::ranges::none_of(boxes, isNear)) continue;
+      mayDiffer_[k] = 1;
+      isCut_[k] = 0;
+      isAny = true;
+      for (size_t c = 0; c < 3; ++c) {
+        const vec3& from = corners.positions[c];
+        sides[c][lane] = {from, 0.0f, corners.positions[(c + 1) % 3] - from, 1.0f};
+      }
+    }
+    for (size_t c = 0; isAny && c < 3; ++c) {
+      const std::array<bool, RayCaster::kLanes> cut = rays.occluded8(sides[c]);
+      for (size_t lane = 0; lane < RayCaster::kLanes; ++lane) {
+        traced += sides[c][lane].tFar > 0.0f ? 1 : 0;
+        if (!cut[lane]) continue;
+        isCut_[group * RayCaster::kLanes + lane] = 1;
+        for (size_t next = c + 1; next < 3; ++next) sides[next][lane].tFar = -1.0f;
+      }
     }
   });
   if (isNewMesh) return traced;

@@ -319,13 +319,23 @@ uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t l
   std::vector<LightRay> lights;
   work.emitters[emitter].raysTo(spots, now.scene.objects[object].leftOutBy, ~key, lights);
   std::array<vec3, 3> seen{}, all{};
-  for (const LightRay& l : lights) {
-    const bool isSeen = !now.rays.occluded(l.ray);
-    seenRays += isSeen ? 1 : 0;
-    for (size_t c = 0; c < 3; ++c) {
-      const vec3 part = weights[l.spot][static_cast<int>(c)] * l.irradiance;
-      all[c] += part;
-      if (isSeen) seen[c] += part;
+  for (size_t first = 0; first < lights.size(); first += RayCaster::kLanes) {
+    const auto some =
+        std::span(lights).subspan(first, std::min(RayCaster::kLanes, lights.size() - first));
+    std::array<Ray, RayCaster::kLanes> rays;
+    for (size_t i = 0; i < RayCaster::kLanes; ++i)
+      if (i < some.size())
+        rays[i] = some[i].ray;
+      else
+        rays[i].tFar = -1.0f;
+    const std::array<bool, RayCaster::kLanes> isHidden = now.rays.occluded8(rays);
+    for (size_t i = 0; i < some.size(); ++i) {
+      seenRays += isHidden[i] ? 0 : 1;
+      for (size_t c = 0; c < 3; ++c) {
+        const vec3 part = weights[some[i].spot][static_cast<int>(c)] * some[i].irradiance;
+        all[c] += part;
+        if (!isHidden[i]) seen[c] += part;
+      }
     }
   }
   for (size_t c = 0; c < 3; ++c)

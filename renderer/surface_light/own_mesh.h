@@ -2,10 +2,11 @@
 // place.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "renderer/base/random.h"
 #include "renderer/patches/topology.h"
@@ -45,19 +46,25 @@ class OwnMesh {
   Bounds bounds_;
 };
 
-// Numbers samples: one for each place and normal.
+// Numbers samples: one for each place and normal. A table with open addressing: the shapes of a
+// level have hundreds of thousands.
 class SampleKeys {
  public:
   // The number of the sample there, and whether it is new.
   std::pair<uint32_t, bool> find(const vec3& position, const vec3& normal) {
-    const auto [it, isNew] = ids_.emplace(Key{position, normal}, next_);
-    if (isNew) ++next_;
-    return {it->second, isNew};
+    if (2 * entries_.size() >= slots_.size()) grow();
+    const Key key{position, normal};
+    uint32_t& slot = slots_[slotOf(key)];
+    if (slot != kFree) return {entries_[slot].id, false};
+    slot = static_cast<uint32_t>(entries_.size());
+    entries_.push_back({key, next_});
+    return {next_++, true};
   }
   // The same if there is one, otherwise kNone.
   int known(const vec3& position, const vec3& normal) const {
-    const auto it = ids_.find(Key{position, normal});
-    return it == ids_.end() ? kNone : static_cast<int>(it->second);
+    if (slots_.empty()) return kNone;
+    const uint32_t slot = slots_[slotOf({position, normal})];
+    return slot == kFree ? kNone : static_cast<int>(entries_[slot].id);
   }
   uint32_t addUnnamed() { return next_++; }
 
@@ -66,17 +73,34 @@ class SampleKeys {
     vec3 position, normal;
     bool operator==(const Key&) const = default;
   };
-  struct Hash {
-    size_t operator()(const Key& k) const {
-      const auto word = [](const vec3& v) {
-        // Adding 0 makes a negative zero positive: both compare equal.
-        return hash4(std::bit_cast<uint32_t>(v.x + 0.0f), std::bit_cast<uint32_t>(v.y + 0.0f),
-                     std::bit_cast<uint32_t>(v.z + 0.0f), 0u);
-      };
-      return size_t{word(k.position)} << 32 | word(k.normal);
-    }
+  struct Entry {
+    Key key;
+    uint32_t id;
   };
-  std::unordered_map<Key, uint32_t, Hash> ids_;
+  static constexpr uint32_t kFree = 0xffffffffu;
+
+  static uint32_t hashOf(const Key& k) {
+    // Adding 0 makes a negative zero positive: both compare equal.
+    const auto word = [](const vec3& v, uint32_t seed) {
+      return hash4(std::bit_cast<uint32_t>(v.x + 0.0f), std::bit_cast<uint32_t>(v.y + 0.0f),
+                   std::bit_cast<uint32_t>(v.z + 0.0f), seed);
+    };
+    return word(k.position, word(k.normal, 0u));
+  }
+  // The slot of the key or, without one, the free slot for it.
+  size_t slotOf(const Key& key) const {
+    const size_t mask = slots_.size() - 1;
+    size_t at = hashOf(key) & mask;
+    while (slots_[at] != kFree && !(entries_[slots_[at]].key == key)) at = (at + 1) & mask;
+    return at;
+  }
+  void grow() {
+    slots_.assign(std::max<size_t>(64, 4 * slots_.size()), kFree);
+    for (uint32_t i = 0; i < entries_.size(); ++i) slots_[slotOf(entries_[i].key)] = i;
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<uint32_t> slots_;  // a power of two of them: indices of entries
   uint32_t next_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "renderer/surface_light/surface_shape.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "renderer/patches/topology.h"
@@ -106,21 +107,28 @@ class TreeBuilder {
   uint32_t triangle_ = 0;
 };
 
+// The samples with which each shares an element, in order.
 void findNeighbours(SurfaceShape& shape) {
-  std::vector<std::pair<uint32_t, uint32_t>> pairs;
+  const size_t samples = shape.samples.size();
+  std::vector<uint32_t> ends(samples + 1, 0);  // of the lists, with repetitions
   for (const SurfaceShape::Leaf& leaf : shape.leaves)
-    for (const uint32_t a : leaf.samples)
-      for (const uint32_t b : leaf.samples)
-        if (a != b) pairs.emplace_back(a, b);
-  std::ranges::sort(pairs);
-  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
-  shape.neighbourStarts.assign(shape.samples.size() + 1, 0);
-  for (const auto& [from, to] : pairs) {
-    ++shape.neighbourStarts[from + 1];
-    shape.neighbours.push_back(to);
+    for (const uint32_t a : leaf.samples) ends[a + 1] += 2;
+  for (size_t i = 1; i <= samples; ++i) ends[i] += ends[i - 1];
+  std::vector<uint32_t> all(ends.back()), next(ends.begin(), ends.end() - 1);
+  for (const SurfaceShape::Leaf& leaf : shape.leaves)
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = leaf.samples[k];
+      all[next[a]++] = leaf.samples[(k + 1) % 3];
+      all[next[a]++] = leaf.samples[(k + 2) % 3];
+    }
+  shape.neighbourStarts.assign(1, 0);
+  for (uint32_t s = 0; s < samples; ++s) {
+    const auto list = std::span(all).subspan(ends[s], ends[s + 1] - ends[s]);
+    std::ranges::sort(list);
+    for (size_t k = 0; k < list.size(); ++k)
+      if (list[k] != s && (k == 0 || list[k] != list[k - 1])) shape.neighbours.push_back(list[k]);
+    shape.neighbourStarts.push_back(static_cast<uint32_t>(shape.neighbours.size()));
   }
-  for (size_t i = 1; i < shape.neighbourStarts.size(); ++i)
-    shape.neighbourStarts[i] += shape.neighbourStarts[i - 1];
 }
 
 }  // namespace

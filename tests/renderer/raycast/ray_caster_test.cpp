@@ -60,8 +60,10 @@ TEST(RayCaster, EightRaysAtATimeEqualSingleRays) {
              glm::normalize(vec3(u(random), -4.0f, u(random)))};
     r[5].tFar = -1.0f;  // an inactive lane
     rays.intersect8(r, h);
+    const std::array<bool, 8> occluded = rays.occluded8(r);
     for (size_t i = 0; i < 8; ++i) {
       const Hit one = i == 5 ? Hit() : rays.intersect(r[i]);
+      EXPECT_EQ(occluded[i], static_cast<bool>(one));
       EXPECT_EQ(h[i].object, one.object);
       if (one && h[i].triangle == one.triangle) {
         EXPECT_EQ(h[i].t, one.t);
@@ -169,6 +171,16 @@ TEST_P(MovesIn, GiveTheBitsOfANewAccelerationStructure) {
     ASSERT_EQ(a.u, b.u);
     ASSERT_EQ(a.v, b.v);
     ASSERT_EQ(moved.occluded(ray), static_cast<bool>(a));
+    Ray ended = ray;
+    ended.tFar = 0.5f;
+    std::array<Ray, 8> eight;
+    eight.fill(ray);
+    eight[2] = ended;
+    eight[7].tFar = -1.0f;
+    const std::array<bool, 8> occluded = moved.occluded8(eight);
+    ASSERT_EQ(occluded[0], static_cast<bool>(a));
+    ASSERT_EQ(occluded[2], moved.occluded(ended));
+    ASSERT_FALSE(occluded[7]);
     hits += a ? 1 : 0;
   }
   EXPECT_GT(hits, 5000);
@@ -265,6 +277,11 @@ TEST(RayCaster, PassesTransparentPanesAndHolesOfMasks) {
   EXPECT_EQ(rays.intersect(down(0.5f, 0.1f)).object, 1u);
   EXPECT_TRUE(rays.occluded({vec3(0.5f, 10, 0.1f), 0.0f, vec3(0, -1, 0), 9.0f}));
   EXPECT_FALSE(rays.occluded({vec3(-0.5f, 10, 0.1f), 0.0f, vec3(0, -1, 0), 9.0f}));
+  std::array<Ray, 8> eight;
+  for (size_t i = 0; i < 8; ++i)
+    eight[i] = {vec3(i % 2 == 0 ? 0.5f : -0.5f, 10, 0.1f), 0.0f, vec3(0, -1, 0), 9.0f};
+  const std::array<bool, 8> occluded = rays.occluded8(eight);
+  for (size_t i = 0; i < 8; ++i) EXPECT_EQ(occluded[i], i % 2 == 0);
 }
 
 }  // namespace
