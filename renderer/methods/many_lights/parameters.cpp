@@ -92,8 +92,7 @@ const ParameterTable<P>& manyLightsParameters() {
        "",
        "Factor for the resolution of shadow maps once all other work is done, as far as map_memory "
        "allows. Shadows at rest are sharper and leak less. An edit returns the maps that it "
-       "affects "
-       "to the small size. 1: off.",
+       "affects to the small size. Pictures that are repaired by paths do without. 1: off.",
        {1, 16},
        quality},
       {&P::sunMaps,
