@@ -12,20 +12,16 @@
 #include "editor/debug_views/look.h"
 #include "editor/document/cache_folder.h"
 #include "editor/split/split_side.h"
+#include "editor/split/tile_errors.h"
 #include "editor/split/tile_sheet.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
-#include "renderer/image/average_blocks.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/metrics.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter::cli {
 namespace {
-
-// Errors are those of means of so many pixels a side, which leaves less of the reference's noise.
-constexpr int kBlock = 4;
 
 struct Rendered {
   std::string side;
@@ -57,10 +53,8 @@ std::vector<std::string> figuresOf(const Rendered& r, const Rendered* reference)
           ? fmt::format("settled after {:.2f} s, {} frames in all", *r.time.settled, r.time.frames)
           : fmt::format("not settled after {} frames", r.time.frames)};
   if (reference != nullptr && reference != &r)
-    figures.push_back(fmt::format("{:.1f}% from {}",
-                                  100.0 * relRmse(averageBlocks(r.picture, kBlock),
-                                                  averageBlocks(reference->picture, kBlock)),
-                                  reference->side));
+    figures.push_back(fmt::format(
+        "{:.1f}% from {}", 100.0 * tileError(r.picture, reference->picture), reference->side));
   return figures;
 }
 

@@ -61,9 +61,8 @@ const std::vector<Preset>& presets() {
            "The defaults: fast enough to drag lights, accurate enough to judge them.",
            [](const Row& row) { return row.spec.defaultValue; }),
       made("final", "Final",
-           "As work while anything changes; at rest the picture gets better for as long as you "
-           "wait: "
-           "4,096 paths a pixel.",
+           "Like work while anything changes; at rest 4,096 paths for each pixel repair the "
+           "picture, instead of 256.",
            [](const Row& row) { return row.final.value_or(row.spec.defaultValue); }),
   };
   return all;

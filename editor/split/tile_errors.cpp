@@ -5,7 +5,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kBlock = 4;  // leaves less of the reference's noise
+constexpr int kBlock = 4;
 
 bool canCompare(const TileErrors::Picture& picture, const TileErrors::Picture& base, bool waits) {
   return picture && base && picture->width() == base->width() &&
@@ -15,18 +15,20 @@ bool canCompare(const TileErrors::Picture& picture, const TileErrors::Picture& b
 
 }  // namespace
 
+double tileError(const Image& picture, const Image& base) {
+  return relRmse(averageBlocks(picture, kBlock), averageBlocks(base, kBlock));
+}
+
 void TileErrors::update(std::span<const Picture> pictures, size_t base, bool waits) {
   compared_.resize(pictures.size());
   errors_.resize(pictures.size());
   const Picture& truth = pictures[base];
-  std::optional<Image> truthBlocks;
   for (size_t i = 0; i < pictures.size(); ++i) {
     if (compared_[i] == pictures[i] && base_ == truth && (errors_[i] || i == base)) continue;
     compared_[i] = pictures[i];
     errors_[i].reset();
     if (i == base || !canCompare(pictures[i], truth, waits)) continue;
-    if (!truthBlocks) truthBlocks = averageBlocks(truth->pixels(), kBlock);
-    errors_[i] = relRmse(averageBlocks(pictures[i]->pixels(), kBlock), *truthBlocks);
+    errors_[i] = tileError(pictures[i]->pixels(), truth->pixels());
   }
   base_ = truth;
 }

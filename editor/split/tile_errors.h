@@ -10,13 +10,16 @@
 
 namespace lamplighter {
 
+// The relRMSE of means of 4 × 4 pixels, which leaves less of the reference's noise.
+double tileError(const Image& picture, const Image& base);
+
 class TileErrors {
  public:
   using Picture = std::shared_ptr<RadianceImage>;
   // Compares the pictures that are new, or all if `base` is. Null: there is none yet. Pictures on a
   // GPU are left out unless `waits`.
   void update(std::span<const Picture> pictures, size_t base, bool waits);
-  // The relRMSE of means of 4 × 4 pixels; none: not compared, or the base itself.
+  // tileError(); none: not compared, or the base itself.
   std::optional<double> of(size_t tile) const;
 
  private:

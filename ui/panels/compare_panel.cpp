@@ -73,12 +73,15 @@ void shownRow(const PanelContext& ui, Requests& requests) {
               "Compares the picture with a second one of the same view, which costs the time to "
               "render it.");
   const float gap = ui.px(3);
-  const auto gaps = static_cast<float>(kChoices.size() - 1);
-  const float width = std::floor((ImGui::GetContentRegionAvail().x - gaps * gap) / (gaps + 1));
+  // Each is as wide as its text and an equal part of what is left.
+  const auto count = static_cast<float>(kChoices.size());
+  float left = ImGui::GetContentRegionAvail().x - (count - 1) * gap;
+  for (const Choice& choice : kChoices) left -= ImGui::CalcTextSize(choice.label).x;
   for (const Choice& choice : kChoices) {
     if (&choice != &kChoices.front()) ImGui::SameLine(0, gap);
     const bool holds = choice.shown ? split.on() && split.shown() == *choice.shown : !split.on();
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(2), ui.px(4)});
+    const float width = std::floor(ImGui::CalcTextSize(choice.label).x + left / count);
     const bool clicked = toggleButton(choice.label, holds, {width, 0});
     ImGui::PopStyleVar();
     ui.name(std::string("show/") + choice.widget);

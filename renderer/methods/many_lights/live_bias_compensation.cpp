@@ -86,15 +86,17 @@ void LiveBiasCompensation::takeGains(const Image& without, const Image& with) {
   gains_ = std::make_shared<const Image>(std::move(gains));
 }
 
-void LiveBiasCompensation::dropGains(const View& view, std::span<const Bounds> objects) {
-  if (!gains_ || objects.empty()) return;
+void LiveBiasCompensation::dropGains(const View& view, std::span<const MoverFinder::Mover> movers) {
+  if (!gains_ || movers.empty()) return;
   if (gains_->width != view.width || gains_->height != view.height) return;
   Image kept = *gains_;
-  for (const Bounds& object : objects) {
-    const PixelRect r = pixelsOf(view, object);
-    for (int y = r.low.y; y < r.high.y; ++y)
-      std::fill(&kept.at(r.low.x, y), &kept.at(r.low.x, y) + (r.high.x - r.low.x), vec3(1.0f));
-  }
+  for (const MoverFinder::Mover& mover : movers)
+    for (const Bounds& place : {mover.before, mover.after}) {
+      if (place.empty()) continue;
+      const PixelRect r = pixelsOf(view, place);
+      for (int y = r.low.y; y < r.high.y; ++y)
+        std::fill_n(kept.pixels.begin() + y * kept.width + r.low.x, r.high.x - r.low.x, vec3(1.0f));
+    }
   gains_ = std::make_shared<const Image>(std::move(kept));
 }
 

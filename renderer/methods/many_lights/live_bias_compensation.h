@@ -1,8 +1,8 @@
 // Adds the light that the clamp near VPLs removes to the live picture, once it is settled. It
 // traces the refinement's rays to near surfaces once, with the live VPLs, and pixels of one surface
 // share their results (bias_compensation.h). During an edit, with the camera at rest, pixels keep
-// the relative gain of the settled picture, so that corners do not become dark and bright again; but
-// not where an object moved: a lamp in the place of a corner would be twice as bright.
+// the relative gain of the settled picture, so that corners do not become dark and bright again;
+// but not where an object moved: a lamp in the place of a corner would be twice as bright.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ class LiveBiasCompensation {
   // The picture changed: the light must be computed again.
   void outdate() { rows_ = 0; }
   // Forgets the gains of pixels that may have shown these objects or may show them now.
-  void dropGains(const View& view, std::span<const Bounds> objects);
+  void dropGains(const View& view, std::span<const MoverFinder::Mover> movers);
 
   bool isWhole(const View& view) const { return rows_ == view.height; }
   // Processes the next rows of pixels, as many as fit into a frame.

@@ -87,7 +87,7 @@ class LiveLights {
 
   int pending() const;
   int missingSunTiles() const;  // that are wanted, but not shown
-  int live() const;  // number of samples shown; a sun counts as one
+  int live() const;             // number of samples shown; a sun counts as one
   int oldestFrames() const;
   // Since the last clearChanged(). Fine maps count once all are rendered, because a sum for each
   // few of them would take longer than the maps.

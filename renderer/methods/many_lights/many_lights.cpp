@@ -39,17 +39,6 @@ int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options,
   return static_cast<int>(std::max<uint64_t>(maps, 1));
 }
 
-// Where objects that moved were and are.
-std::vector<Bounds> placesOfMoved(const RenderScene& scene, const RenderSceneChanges& changes) {
-  std::vector<Bounds> boxes;
-  for (const Bounds& before : changes.movedBounds)
-    if (!before.empty()) boxes.push_back(before);
-  for (const uint32_t o : changes.movedObjects)
-    if (o < scene.objects.size() && !scene.objects[o].bounds.empty())
-      boxes.push_back(scene.objects[o].bounds);
-  return boxes;
-}
-
 // Limits of a frame for summing light at edges, in units of kLightPixelsUnit. A frame that needs
 // more interpolates the other edges, and the next ones go on. The limit is lower while the camera
 // moves, because each frame sums all lights then.
@@ -131,7 +120,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   if (viewChanged) gbufferIsCurrent_ = false;
   if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
     corners_.forget();
-  corners_.dropGains(in.view, placesOfMoved(in.scene, in.changes));
+  if (in.changes.surfaces()) corners_.dropGains(in.view, in.services.movers());
   const bool isReady = isAtRest() && stats.transfersPending == 0 && stats.patchesPending == 0 &&
                        (!visibility_ || demandIsCurrent_) &&
                        !(lightMaps_ && lightMaps_->couldBeFiner());

@@ -3,10 +3,9 @@
 //   lamplighter_methods_table LEVEL METHOD REFERENCES [CURVES]
 //   lamplighter_methods_table LEVEL METHOD strip FILE.png   (drag_strip.h)
 // METHOD: a method, with its parameters as in "many_lights,indirect=samples", or a preset as
-// "preset.draft"; "truth" writes the
-// references, pictures of the path tracer after each step, into the folder REFERENCES, and prints
-// the paths a pixel and the noise of the worst of them. Prints a row of CSV for each step; to
-// CURVES it appends the error over time.
+// "preset.draft"; "truth" writes the references, pictures of the path tracer after each step, into
+// the folder REFERENCES, and prints the paths a pixel and the noise of the worst of them. Prints a
+// row of CSV for each step; to CURVES it appends the error over time.
 #include <array>
 #include <filesystem>
 #include <fstream>

@@ -21,8 +21,7 @@ constexpr std::string_view kPreset = "preset.";
 // A method with parameters, or a preset of quality.
 RenderSettings settingsOf(const std::string& method) {
   if (!method.starts_with(kPreset)) return readSide(method, "").of({});
-  const auto preset =
-      std::ranges::find(presets(), method.substr(kPreset.size()), &Preset::name);
+  const auto preset = std::ranges::find(presets(), method.substr(kPreset.size()), &Preset::name);
   if (preset == presets().end())
     throw InputError(method, "is not a preset", "give preset.draft, preset.work or preset.final");
   return withPreset({}, *preset);
