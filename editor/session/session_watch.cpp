@@ -13,7 +13,8 @@ void Session::updateProbes(const SceneChanges& changes, bool isTimed) {
   if (clock_ && isTimed) probes_.took(clock_() - begin);
 }
 
-// The time of the second picture is not part of the frame.
+// The time of the second picture is not part of the frame. Where counts limit the work, tiles show
+// no times, so that the pictures of a recording are the same in each run.
 void Session::watchFrame(const SceneChanges& changes, double begin, bool isPaced) {
   const double end = clock_ ? clock_() : 0.0;
   watch_.timeline.add(frame_, begin, end, output_.stats);
@@ -31,10 +32,10 @@ void Session::watchFrame(const SceneChanges& changes, double begin, bool isPaced
     watch_.meter.pause();
   if (watch_.meter.measured()) setStatus(watch_.meter.text());
   try {
-    split_.frame({{document_, view_, display_.lightOnly(), isPaced, clock_},
+    split_.frame({{document_, view_, display_.lightOnly(), isPaced, isPaced ? clock_ : Stopwatch()},
                   changes,
                   output_,
-                  end - begin,
+                  isPaced ? end - begin : 0.0,
                   watch_.meter});
   } catch (const std::exception& e) {
     split_.turnOff();  // the first side was rendered and stays

@@ -33,6 +33,11 @@ bool ComparedSide::isNew(const Frame& frame) const {
   return !unseen_.none() || !(frame.of(side_) == seen_);
 }
 
+void ComparedSide::note(const SceneChanges& changes, const Frame& frame) {
+  unseen_.merge(changes);
+  if (isNew(frame)) progress_ = {};
+}
+
 bool ComparedSide::isDone(const Frame& frame) const {
   return !isNew(frame) && (!failure_.empty() || (settled_ && (refined_ || !frame.isPaced)));
 }

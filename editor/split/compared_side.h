@@ -40,8 +40,8 @@ class ComparedSide {
     const Document& document;
     const View& view;
     bool lightOnly = false;
-    bool isPaced = false;    // by time, as in the window; otherwise by counts, and not refined
-    const Stopwatch& clock;  // null: times are not measured
+    bool isPaced = false;  // by time, as in the window; otherwise by counts, and not refined
+    Stopwatch clock;       // null: times are not measured
     SideInput of(const SplitSide& side) const;
   };
 
@@ -49,8 +49,8 @@ class ComparedSide {
   const SplitSide& side() const { return side_; }
   const SideProgress& progress() const { return progress_; }
 
-  // The next frame receives these changes.
-  void note(const SceneChanges& changes) { unseen_.merge(changes); }
+  // The next frame that is rendered, this one or a later one, receives these changes.
+  void note(const SceneChanges& changes, const Frame& frame);
   // Whether another frame would change nothing.
   bool isDone(const Frame& frame) const;
   // Renders a frame; throws what the renderer throws. `make`: creates it on demand.

@@ -54,7 +54,7 @@ void SplitView::toggleWhole() { shown_ = shown_ == Shown::second ? Shown::first 
 
 void SplitView::frame(const Frame& frame) {
   if (!on_) return;
-  for (ComparedSide& side : others_) side.note(frame.changes);
+  for (ComparedSide& side : others_) side.note(frame.changes, frame.side);
   SideInput seen = frame.side.of(first_);
   const bool isNew = !frame.changes.none() || !(seen == firstSeen_);
   firstSeen_ = std::move(seen);

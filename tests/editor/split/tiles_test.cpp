@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "editor/session/frame_pacer.h"
 #include "editor/split/split_view.h"
 #include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
@@ -87,6 +88,11 @@ TEST_F(SplitTiles, FiguresAreTheWorkAndTheErrorAgainstTheReference) {
   session_.setClock([&] { return now += 0.25; });
   run("split.tiles live many_lights,bounces=0 reference,samples_per_pixel=8");
   settle();
+  EXPECT_EQ(split().figures(1)[0].find(" s, "), std::string::npos) << "counts limit the work";
+  run("split.tiles live many_lights,bounces=0 reference,samples_per_pixel=8");
+  FramePacer pacer;
+  for (int i = 0; i < 2000 && (i == 0 || !session_.output().settled); ++i)
+    pacer.renderFrame(session_);
   const std::vector<std::string> live = split().figures(0), other = split().figures(1),
                                  reference = split().figures(2);
   ASSERT_EQ(other.size(), 2u);
