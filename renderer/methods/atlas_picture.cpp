@@ -102,7 +102,8 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     showView(in, gbufferIsCurrent);
     samples_.front() = sampleOf(in, light, options, samples_.front(), {}, true);
     plainLobes_.restart(view_, 1, seed);
-    plainLobes_.add(in.scene, in.services.rays(), mirror, in.backend.hostGBuffer(), options);
+    plainLobes_.add(in.scene, in.services.rays(), mirror, in.backend.hostGBuffer(), options,
+                    {0, view_.height});
     hasPlainLobes_ = true;
     shown_ = nullptr;
   } else if (light.isDone() && antialias > 1 && static_cast<int>(samples_.size()) <= antialias) {
@@ -110,7 +111,8 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     gbufferIsCurrent = false;
     if (samples_.size() == 1) lobes_.restart(view_, antialias, seed);
     samples_.push_back(sampleOf(in, light, options, {}, {}, true));
-    lobes_.add(in.scene, in.services.rays(), mirror, in.backend.hostGBuffer(), options);
+    lobes_.add(in.scene, in.services.rays(), mirror, in.backend.hostGBuffer(), options,
+               {0, view_.height});
   }
   // The shifted ones when there are all.
   const bool isSmooth =
@@ -125,6 +127,10 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
   }
   if (shown_ && picture == under_ && shownOf == shownOf_ && version_ == light.version())
     return shown_;
+  if (version_ != light.version()) {
+    plainLobes_.outdateLight();
+    lobes_.outdateLight();
+  }
   version_ = light.version();
   Image sum = picture->pixels();
   const float scale = 1.0f / (kPi * static_cast<float>(parts.size()));

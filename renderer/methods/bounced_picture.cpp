@@ -15,6 +15,10 @@ namespace {
 
 // Rays of a frame: some 25 ms on two cores.
 constexpr uint64_t kRaysAFrame = 150'000;
+// Pixels of a picture at rest that a frame adds: some 50 ms if all of them are glossy.
+constexpr int kPixelsAFrame = 150'000;
+
+int rowsAFrame(const View& view) { return std::max(1, kPixelsAFrame / view.width); }
 
 }  // namespace
 
@@ -26,7 +30,11 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   pace_ = isLive ? std::min(pace, 1.0f) : 1.0f;
   const auto most = static_cast<uint64_t>(pace_ * static_cast<float>(kRaysAFrame));
   hasOtherLight_ = light_.update(in.scene, changes, in.services.rays(), light, most);
-  if (hasOtherLight_) shown_ = nullptr;
+  if (hasOtherLight_) {
+    shown_ = nullptr;
+    still_.outdateLight();
+    smooth_.outdateLight();
+  }
   raysLeft_ = std::max(most / 4, most - std::min(most, light_.counts().rays));
   const bool isOtherView =
       !(in.view == view_) || light.seed != seed_ || light.projection != projection_;
@@ -37,9 +45,9 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   if (isAtRest_ && picture == options_) return;
   recordsAreOutdated_ = true;
   keepsPixels_ = !isOtherView && picture == options_ && !light_.hasOtherElements() &&
-                 !changes.materials && plain_.samples() == 1 && !hasPlainLobes_;
-  if (!keepsPixels_) forgetPlain();
-  smooth_ = {};
+                 !changes.materials && moving_.samples() == 1;
+  if (!keepsPixels_) moving_ = {};
+  still_ = smooth_ = {};
   shown_ = nullptr;
   view_ = in.view;
   seed_ = light.seed;
@@ -51,23 +59,26 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
                                                      const std::shared_ptr<RadianceImage>& picture,
                                                      int antialias, bool& gbufferIsCurrent) {
   updateRecords(in, gbufferIsCurrent);
-  if (antialias > 1 && smooth_.samples() < antialias && records_.isDone())
-    addSample(in, smooth_, antialias, gbufferIsCurrent);
-  const int shown = smooth_.samples() == antialias ? antialias : 1;
   // Only in frames without a change: during a motion these rays would be traced again each time.
-  if (shown <= 1 && isAtRest_ && !hasPlainLobes_) {
-    forgetPlain();
-    hasPlainLobes_ = true;
-    shown_ = nullptr;
-  }
-  if (shown <= 1 && (plain_.samples() == 0 || keepsPixels_))
-    addSample(in, plain_, 1, gbufferIsCurrent);
-  if (shown_ && picture == under_ && shown == antialias_) return shown_;
+  const bool hasTime = isAtRest_ && !hasOtherLight_;
+  if (hasTime && !still_.isComplete())
+    goOn(in, still_, 1, gbufferIsCurrent);
+  else if (hasTime && antialias > 1 && !isSmooth(antialias) && records_.isDone())
+    goOn(in, smooth_, antialias, gbufferIsCurrent);
+  RestingPicture* resting = isSmooth(antialias)   ? &smooth_
+                            : still_.isComplete() ? &still_
+                                                  : nullptr;
+  if (resting == nullptr && (moving_.samples() == 0 || keepsPixels_))
+    drawMoving(in, gbufferIsCurrent);
+  const int shownOf = resting != nullptr ? resting->samples() : 0;
+  if (shown_ && picture == under_ && shownOf == shownOf_) return shown_;
   Image sum = picture->pixels();
-  (shown > 1 ? smooth_ : plain_).addTo(light_.values(), records_.values(), sum);
-  (shown > 1 ? lobes_ : plainLobes_).addTo(in.scene, MeshMirror(gatherScene(in), light_), sum);
+  if (resting != nullptr)
+    resting->addTo(gatherScene(in), light_, records_, sum);
+  else
+    moving_.addTo(light_.values(), records_.values(), sum);
   under_ = picture;
-  antialias_ = shown;
+  shownOf_ = shownOf;
   shown_ = std::make_shared<HostImage>(std::move(sum));
   return shown_;
 }
@@ -93,8 +104,11 @@ std::shared_ptr<const MirroredLight> BouncedPicture::surfaces(const FrameInputs&
 
 int BouncedPicture::framesLeft(int antialias) const {
   const uint64_t rays = light_.links().raysLeft() + records_.raysLeft();
-  return static_cast<int>((rays + kRaysAFrame - 1) / kRaysAFrame) +
-         (antialias > 1 ? antialias - smooth_.samples() : 0);
+  const int height = std::max(view_.height, 1), aFrame = rowsAFrame(view_);
+  int rows = still_.hasBegun() ? still_.rowsLeft() : height;
+  if (antialias > 1)
+    rows += smooth_.samples() == antialias ? smooth_.rowsLeft() : antialias * height;
+  return static_cast<int>((rays + kRaysAFrame - 1) / kRaysAFrame) + (rows + aFrame - 1) / aFrame;
 }
 
 // Records are chosen when nothing moves and samples of the mesh have all rays, because their choice
@@ -105,8 +119,7 @@ void BouncedPicture::updateRecords(const FrameInputs& in, bool& gbufferIsCurrent
     showView(in, gbufferIsCurrent);
     records_.choose(gatherScene(in), light_, in.backend.hostGBuffer(), raysLeft_);
     recordsAreOutdated_ = false;
-    forgetPlain();
-    smooth_ = {};
+    forgetPixels();
   } else if (isMissing) {
     records_.retrace(gatherScene(in), raysLeft_);
   } else if (!hasOtherLight_) {
@@ -121,34 +134,33 @@ void BouncedPicture::showView(const FrameInputs& in, bool& gbufferIsCurrent) {
   gbufferIsCurrent = true;
 }
 
-void BouncedPicture::forgetPlain() {
-  plain_ = {};
-  plainLobes_ = {};
-  hasPlainLobes_ = false;
+void BouncedPicture::forgetPixels() {
+  moving_ = {};
+  still_ = smooth_ = {};
 }
 
-void BouncedPicture::addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
-                               bool& gbufferIsCurrent) {
-  PixelLobes& lobes = samples > 1 ? lobes_ : plainLobes_;
-  const bool withLobes = samples > 1 || hasPlainLobes_;
-  const bool keepsPixels = samples == 1 && std::exchange(keepsPixels_, false);
-  if (pixels.samples() == 0) {
-    pixels.restart(view_.width, view_.height, samples);
-    lobes.restart(view_, samples, seed_);
-  }
+void BouncedPicture::goOn(const FrameInputs& in, RestingPicture& picture, int samples,
+                          bool& gbufferIsCurrent) {
+  if (picture.samples() != samples) picture.restart(view_, samples, seed_);
   if (samples == 1) {
     showView(in, gbufferIsCurrent);
   } else {
-    in.backend.renderGBuffer(view_, pixelJitter(pixels.samples(), samples));
+    in.backend.renderGBuffer(view_, pixelJitter(picture.sample(), samples));
     gbufferIsCurrent = false;
   }
+  picture.add(gatherScene(in), light_, records_, in.backend.hostGBuffer(), options_,
+              rowsAFrame(view_));
+}
+
+void BouncedPicture::drawMoving(const FrameInputs& in, bool& gbufferIsCurrent) {
+  showView(in, gbufferIsCurrent);
   const GBufferView gbuffer = in.backend.hostGBuffer();
-  if (keepsPixels && pixels.samples() == 1)
-    pixels.replaceChanged(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
-  else
-    pixels.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_, withLobes);
-  if (withLobes)
-    lobes.add(in.scene, in.services.rays(), MeshMirror(gatherScene(in), light_), gbuffer, options_);
+  if (std::exchange(keepsPixels_, false) && moving_.samples() == 1) {
+    moving_.replaceChanged(gatherScene(in), light_, records_, gbuffer, view_.eye, options_);
+    return;
+  }
+  moving_.restart(view_.width, view_.height, 1);
+  moving_.add(gatherScene(in), light_, records_, gbuffer, view_.eye, options_, {0, view_.height});
 }
 
 }  // namespace lamplighter

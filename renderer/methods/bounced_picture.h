@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "renderer/methods/gi_method.h"
-#include "renderer/surface_light/pixels/pixel_lobes.h"
-#include "renderer/surface_light/pixels/surface_picture.h"
+#include "renderer/surface_light/pixels/resting_picture.h"
 #include "renderer/surface_light/surface_light.h"
 
 namespace lamplighter {
@@ -23,7 +22,7 @@ class BouncedPicture {
   float pace() const { return pace_; }
 
   // `picture` plus bounced light, the mean of `antialias` shifted pictures (1: without a shift).
-  // Each frame adds one of them; until they are complete it is without a shift. `gbufferIsCurrent`:
+  // Each frame adds some rows; until they are complete it is without a shift. `gbufferIsCurrent`:
   // whether the backend has the G-buffer of the view without a shift; set to what it has
   // afterwards.
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
@@ -32,7 +31,7 @@ class BouncedPicture {
   // Whether the light has all rays, and a picture that is the mean of so many is complete.
   bool isDone(int antialias) const {
     return light_.isDone() && records_.isDone() &&
-           (antialias <= 1 ? hasPlainLobes_ : smooth_.samples() == antialias);
+           (antialias <= 1 ? still_.isComplete() : isSmooth(antialias));
   }
   // Estimate of the frames until isDone(), without further changes.
   int framesLeft(int antialias) const;
@@ -45,8 +44,7 @@ class BouncedPicture {
   std::shared_ptr<const MirroredLight> surfaces(const FrameInputs& in) const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const {
-    return records_.bytes() + plain_.bytes() + plainLobes_.bytes() + smooth_.bytes() +
-           lobes_.bytes();
+    return records_.bytes() + moving_.bytes() + still_.bytes() + smooth_.bytes();
   }
   void forget() { *this = BouncedPicture(); }
 
@@ -56,9 +54,12 @@ class BouncedPicture {
   }
   void showView(const FrameInputs& in, bool& gbufferIsCurrent);
   void updateRecords(const FrameInputs& in, bool& gbufferIsCurrent);
-  void forgetPlain();
-  void addSample(const FrameInputs& in, SurfacePicture& pixels, int samples,
-                 bool& gbufferIsCurrent);
+  bool isSmooth(int antialias) const {
+    return antialias > 1 && smooth_.samples() == antialias && smooth_.isComplete();
+  }
+  void forgetPixels();
+  void goOn(const FrameInputs& in, RestingPicture& picture, int samples, bool& gbufferIsCurrent);
+  void drawMoving(const FrameInputs& in, bool& gbufferIsCurrent);
 
   SurfaceLight light_;
   const RenderScene* scene_ = nullptr;  // of the last update
@@ -72,12 +73,11 @@ class BouncedPicture {
   float pace_ = 1.0f;                                                    // of this frame
   uint32_t seed_ = 0;
   GatherProjection projection_ = GatherProjection::hemisphere;
-  SurfacePicture plain_, smooth_;  // without a shift; antialiased
-  PixelLobes plainLobes_, lobes_;  // of both
-  bool hasPlainLobes_ = false;     // else plain_ has even light in their place
+  SurfacePicture moving_;          // with even light in place of what glossy surfaces mirror
+  RestingPicture still_, smooth_;  // without a shift; antialiased
   // What was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;
-  int antialias_ = 0;
+  int shownOf_ = 0;  // samples; 0: moving_
 };
 
 }  // namespace lamplighter

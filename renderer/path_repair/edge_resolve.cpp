@@ -81,6 +81,7 @@ size_t bestAround(const GBufferView& g, int x, int y, const Hit& hit, const vec3
 void EdgeResolve::restart() {
   rows_.clear();
   keys_.clear();
+  revisions_.clear();
   next_ = smoothRows_ = 0;
   result_ = from_ = nullptr;
 }
@@ -94,11 +95,20 @@ EdgeResolve::Changes EdgeResolve::findChanges(const FrameInputs& in, const GBuff
   // Materials may cut other holes.
   const bool isKnown = keys_.size() == width * height && !in.changes.materials;
   keys_.resize(width * height);
-  Changes out{std::vector<uint8_t>(width * height, 1), std::vector<uint8_t>(height, 0)};
+  Changes out{std::vector<uint8_t>(width * height, 0), std::vector<uint8_t>(height, 0)};
+  const auto isSameTile = [&](size_t tile) {
+    return isKnown && tile < revisions_.size() && revisions_[tile] == g.revision[tile];
+  };
   tbb::parallel_for(0, g.height, [&](int y) {
     size_t i = static_cast<size_t>(y) * width;
     for (int x = 0; x < g.width; ++x, ++i) {
       const size_t k = g.index(x, y);
+      if (x % cpu::kTileSize == 0 && isSameTile(k / cpu::kTilePixels)) {
+        const int last = std::min(x + cpu::kTileSize, g.width) - 1;
+        i += static_cast<size_t>(last - x);
+        x = last;
+        continue;
+      }
       const bool isHit = g.hit[k] != 0;
       const uint32_t key =
           isHit ? hash4(std::bit_cast<uint32_t>(g.px[k]), std::bit_cast<uint32_t>(g.py[k]),
@@ -110,6 +120,7 @@ EdgeResolve::Changes EdgeResolve::findChanges(const FrameInputs& in, const GBuff
       keys_[i] = key;
     }
   });
+  revisions_ = g.revision;
   return out;
 }
 

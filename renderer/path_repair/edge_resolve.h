@@ -53,6 +53,7 @@ class EdgeResolve {
   std::vector<std::vector<Edge>> rows_;  // of the picture, from the top; empty: not begun
   size_t next_ = 0;                      // the first row without samples
   std::vector<uint32_t> keys_;           // by pixel: what it shows
+  std::vector<uint64_t> revisions_;      // of the G-buffer then, by tile
   // The last result, what it was made of, and how many rows of it are smooth.
   std::shared_ptr<RadianceImage> result_, from_;
   size_t smoothRows_ = 0;

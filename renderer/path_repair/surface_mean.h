@@ -7,14 +7,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/image/rows.h"
 #include "renderer/path_repair/repair_guides.h"
 
 namespace lamplighter {
-
-// Rows of a picture: from `first` up to `last`, without that.
-struct Rows {
-  int first = 0, last = 0;
-};
 
 // Calls f(x, y, index) for all pixels of these rows that show a surface, in parallel.
 template <typename F>

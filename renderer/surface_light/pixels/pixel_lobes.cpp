@@ -79,18 +79,21 @@ void PixelLobes::restart(const View& view, int samples, uint32_t seed) {
 
 uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
                          const MirroredLight& light, const GBufferView& gbuffer,
-                         const SurfacePictureOptions& options) {
-  const auto sample = static_cast<uint32_t>(added_++);
+                         const SurfacePictureOptions& options, Rows rows) {
+  const auto sample = static_cast<uint32_t>(added_);
+  if (rows.last == view_.height) ++added_;
+  outdateLight();
   if (!options.speculars || options.white) return 0;
   const bool isGlossy = std::ranges::any_of(scene.materials, mayBeGlossy);
   if (!isGlossy) return 0;
   const auto pixels = static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height);
-  rays_.resize(pixels * static_cast<size_t>(samples_));
+  rays_.reserve(pixels * static_cast<size_t>(samples_));
+  rays_.resize(std::max(rays_.size(), pixels * (sample + 1)));
   guides_.resize(pixels);
   LobeRay* lobes = rays_.data() + sample * pixels;
   const float pixelAngle = 2.0f * std::tan(0.5f * view_.yfov) / static_cast<float>(view_.height);
   std::atomic<uint64_t> traced = 0;
-  tbb::parallel_for(0, view_.height, [&](int y) {
+  tbb::parallel_for(rows.first, rows.last, [&](int y) {
     std::array<Ray, 8> rays;
     std::array<Hit, 8> hits;
     std::array<size_t, 8> which{};
@@ -222,8 +225,17 @@ void PixelLobes::average(const std::vector<vec3>& from, const std::vector<float>
   });
 }
 
-void PixelLobes::addTo(const RenderScene& scene, const MirroredLight& light, Image& picture) const {
-  if (rays_.empty()) return;
+void PixelLobes::addTo(const RenderScene& scene, const MirroredLight& light, Image& picture) {
+  if (rays_.empty() || added_ == 0) return;
+  if (reflected_.empty()) reflect(scene, light);
+  tbb::parallel_for(0, view_.height, [&](int y) {
+    const size_t first = static_cast<size_t>(y) * static_cast<size_t>(view_.width);
+    for (size_t i = first; i < first + static_cast<size_t>(view_.width); ++i)
+      picture.pixels[i] += reflected_[i];
+  });
+}
+
+void PixelLobes::reflect(const RenderScene& scene, const MirroredLight& light) {
   const size_t pixels = guides_.size();
   std::vector<vec3> seen(pixels, vec3(0.0f)), averaged(pixels);
   const auto each = [&](const auto& use) {
@@ -256,8 +268,9 @@ void PixelLobes::addTo(const RenderScene& scene, const MirroredLight& light, Ima
       const auto& r = rays_[s * pixels + i].reflectance;
       reflectance += vec3(r[0], r[1], r[2]);
     }
-    picture.pixels[i] += scale * reflectance * averaged[i];
+    averaged[i] *= scale * reflectance;
   });
+  reflected_ = std::move(averaged);
 }
 
 }  // namespace lamplighter

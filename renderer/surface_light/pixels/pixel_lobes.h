@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/image/image.h"
+#include "renderer/image/rows.h"
 #include "renderer/surface_light/pixels/mirrored_light.h"
 #include "renderer/surface_light/pixels/pixel_reflectance.h"
 
@@ -18,12 +19,18 @@ class PixelLobes {
 
   // `samples`: how many G-buffers of the view follow.
   void restart(const View& view, int samples, uint32_t seed);
-  // One of them: a ray for each pixel with a lobe. Returns the number of rays.
+  // Some rows of one of them, from the first row on: a ray for each pixel with a lobe. Returns the
+  // number of rays.
   uint64_t add(const RenderScene& scene, const RayCaster& rays, const MirroredLight& light,
-               const GBufferView& gbuffer, const SurfacePictureOptions& options);
-  // Adds the radiance of the lobes, the mean of the samples.
-  void addTo(const RenderScene& scene, const MirroredLight& light, Image& picture) const;
-  size_t bytes() const { return rays_.size() * sizeof(LobeRay) + guides_.size() * sizeof(Guide); }
+               const GBufferView& gbuffer, const SurfacePictureOptions& options, Rows rows);
+  // To be called when the light that is mirrored is another.
+  void outdateLight() { reflected_ = {}; }
+  // Adds the radiance of the lobes, the mean of the whole samples.
+  void addTo(const RenderScene& scene, const MirroredLight& light, Image& picture);
+  size_t bytes() const {
+    return rays_.size() * sizeof(LobeRay) + guides_.size() * sizeof(Guide) +
+           reflected_.size() * sizeof(vec3);
+  }
 
  private:
   struct LobeRay {
@@ -38,6 +45,7 @@ class PixelLobes {
     uint32_t object = 0;
     float radius = 0.0f;  // within which the lobe blurs what it shows [pixels]
   };
+  void reflect(const RenderScene& scene, const MirroredLight& light);
   std::vector<float> evenRadii() const;
   void average(const std::vector<vec3>& from, const std::vector<float>& radii, int step,
                std::vector<vec3>& to) const;
@@ -47,6 +55,8 @@ class PixelLobes {
   int samples_ = 0, added_ = 0;
   std::vector<LobeRay> rays_;  // by sample, then by pixel; empty without glossy pixels
   std::vector<Guide> guides_;  // by pixel
+  // By pixel, radiance of the lobes [W/(m² sr)]; empty if it is not known.
+  std::vector<vec3> reflected_;
 };
 
 }  // namespace lamplighter

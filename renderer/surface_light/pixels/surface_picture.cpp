@@ -35,16 +35,25 @@ void SurfacePicture::restart(int width, int height, int samples) {
   height_ = height;
   samples_ = samples;
   added_ = 0;
-  points_.assign(
-      static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(samples), {});
+  points_.clear();
+  revisions_.clear();
+}
+
+size_t SurfacePicture::bytes() const {
+  size_t bytes = revisions_.size() * sizeof(uint64_t);
+  for (const auto& sample : points_) bytes += sample.size() * sizeof(Point);
+  return bytes;
 }
 
 void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
                          const ViewRecords& records, const GBufferView& gbuffer, const vec3& eye,
-                         const SurfacePictureOptions& options, bool withoutLobes) {
-  const size_t pixels = static_cast<size_t>(width_) * static_cast<size_t>(height_);
+                         const SurfacePictureOptions& options, Rows rows, bool withoutLobes) {
   const RenderScene& scene = in.scene;
-  Point* points = points_.data() + static_cast<size_t>(added_++) * pixels;
+  const auto sample = static_cast<size_t>(added_);
+  if (points_.size() == sample)
+    points_.emplace_back(static_cast<size_t>(width_) * static_cast<size_t>(height_));
+  std::vector<Point>& points = points_[sample];
+  if (rows.last == height_) ++added_;
   const auto show = [&](int x, int y, Point& out) {
     const GBufferPoint p = gbuffer.at(x, y);
     const uint32_t key = keyOf(p);
@@ -75,8 +84,17 @@ void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
     std::ranges::copy(at.values, out.values.begin());
     out.weights = {packed(at.weights.y), packed(at.weights.z), 0};
   };
-  tbb::parallel_for(0, height_, [&](int y) {
+  const cpu::GBuffer& g = gbuffer.packets();
+  const auto isSameTile = [&](int x, int y) {
+    const size_t tile = g.index(x, y) / cpu::kTilePixels;
+    return keepsSame_ && tile < revisions_.size() && revisions_[tile] == g.revision[tile];
+  };
+  tbb::parallel_for(rows.first, rows.last, [&](int y) {
     for (int x = 0; x < width_; ++x) {
+      if (x % cpu::kTileSize == 0 && isSameTile(x, y)) {
+        x += cpu::kTileSize - 1;
+        continue;
+      }
       Point& out =
           points[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
       if (gbuffer.isHit(x, y))
@@ -85,12 +103,12 @@ void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
         out = {};
     }
   });
+  if (samples_ == 1) revisions_ = g.revision;
 }
 
 void SurfacePicture::addTo(std::span<const vec3> onMesh, std::span<const vec3> ofRecords,
                            Image& picture) const {
   if (added_ == 0 || onMesh.empty()) return;
-  const size_t pixels = picture.pixels.size();
   const float scale = 1.0f / (kMost * kPi * static_cast<float>(added_));
   const auto light = [&](uint32_t value) {
     return (value & kRecord) != 0 ? ofRecords[value & ~kRecord] : onMesh[value];
@@ -100,7 +118,7 @@ void SurfacePicture::addTo(std::span<const vec3> onMesh, std::span<const vec3> o
     for (size_t i = first; i < first + static_cast<size_t>(width_); ++i) {
       vec3 sum(0.0f);
       for (int s = 0; s < added_; ++s) {
-        const Point& p = points_[static_cast<size_t>(s) * pixels + i];
+        const Point& p = points_[static_cast<size_t>(s)][i];
         vec3 irradiance(0.0f);
         float rest = 1.0f;
         for (size_t k = 0; k < p.weights.size(); ++k) {

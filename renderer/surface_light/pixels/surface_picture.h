@@ -7,6 +7,7 @@
 
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/image/image.h"
+#include "renderer/image/rows.h"
 #include "renderer/surface_light/pixels/pixel_reflectance.h"
 #include "renderer/surface_light/pixels/view_records.h"
 
@@ -16,11 +17,11 @@ class SurfacePicture {
  public:
   // Forgets all pixels. `samples`: how many G-buffers of this size follow.
   void restart(int width, int height, int samples);
-  // One of them. Pixels where the mesh is too coarse are shown by records, if there are any.
-  // `withoutLobes`: PixelLobes adds what these reflect.
+  // Some rows of one of them, from the first row on. Pixels where the mesh is too coarse are shown
+  // by records, if there are any. `withoutLobes`: PixelLobes adds what these reflect.
   void add(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,
            const GBufferView& gbuffer, const vec3& eye, const SurfacePictureOptions& options,
-           bool withoutLobes = false);
+           Rows rows, bool withoutLobes = false);
 
   // Replaces the pixels of the only G-buffer that show another place than before. The mesh and the
   // records have the same numbers as then.
@@ -29,15 +30,15 @@ class SurfacePicture {
                       const SurfacePictureOptions& options) {
     keepsSame_ = true;
     added_ = 0;
-    add(scene, light, records, gbuffer, eye, options);
+    add(scene, light, records, gbuffer, eye, options, {0, height_});
     keepsSame_ = false;
   }
 
-  int samples() const { return added_; }
+  int samples() const { return added_; }  // that are whole
   // Adds the radiance that reflects the irradiance on the mesh, the mean of the samples.
   // `onMesh`: irradiance by value of the mesh, `ofRecords`: by record [W/m²].
   void addTo(std::span<const vec3> onMesh, std::span<const vec3> ofRecords, Image& picture) const;
-  size_t bytes() const { return points_.size() * sizeof(Point); }
+  size_t bytes() const;
 
  private:
   static constexpr uint32_t kRecord = 0x80000000u;
@@ -52,7 +53,9 @@ class SurfacePicture {
   };
   int width_ = 0, height_ = 0, samples_ = 0, added_ = 0;
   bool keepsSame_ = false;
-  std::vector<Point> points_;  // by sample, then by pixel
+  std::vector<std::vector<Point>> points_;  // by sample, then by pixel
+  // Of the G-buffer when the only sample was added, by tile.
+  std::vector<uint64_t> revisions_;
 };
 
 }  // namespace lamplighter

@@ -17,17 +17,15 @@ WindowFrames::WindowFrames(std::unique_ptr<Backend> backend)
 
 const GiOutput& WindowFrames::frame(const Scene& scene, const SceneChanges& changes,
                                     const View& view, const std::string& edit) {
-  const FrameBudgetParameters budget = frameBudgetParameters().read(settings_);
+  const FramePace::Frame paced = pace_.next(settings_);
   Settings now = settings_;
-  const FrameTimeControl::Work fit = control_.within(1e-3 * budget.frameTime);
-  now.set("updates", std::min(budget.updates, fit.updates));
+  if (paced.updates) now.set(kUpdates, *paced.updates);
   const double begin = benchSeconds();
-  output_ = renderer_.render(
-      {scene, changes, view, "many_lights", now, false, {.surfaceWork = fit.surfaces}});
+  output_ = renderer_.render({scene, changes, view, "many_lights", now, false, paced.budget});
   renderer_.backend().finish();
   const double end = benchSeconds();
   last_ = end - begin;
-  control_.measured(output_.stats);
+  pace_.measured(output_.stats);
   latency_.frame({!edit.empty(), edit, output_.settled, view, output_.radiance, begin, end});
   return output_;
 }

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "editor/budgets/frame_pace.h"
 #include "editor/latency/edit_latency.h"
 #include "renderer/frame/frame.h"
-#include "renderer/methods/frame_time_control.h"
 
 namespace lamplighter {
 
@@ -30,7 +30,7 @@ class WindowFrames {
  private:
   FrameRenderer renderer_;
   Settings settings_;
-  FrameTimeControl control_;
+  FramePace pace_;
   EditLatency latency_;
   GiOutput output_;
   double last_ = 0.0;

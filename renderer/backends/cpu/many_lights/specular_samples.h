@@ -42,6 +42,13 @@ class SpecularSamples {
     uint64_t glossyPixels = 0;
   };
 
+  // Radiance of highlights, divided by the reflectance of the surface.
+  struct Even {
+    vec3 light{0.0f};
+    bool isKnown = false;
+  };
+  std::vector<Even> evenLight(const GBuffer& samples) const;
+
   bool isOn_ = false;
   SpecularAccumulator sums_;  // at the samples
   std::vector<Tile> tiles_;
