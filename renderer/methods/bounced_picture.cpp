@@ -104,11 +104,11 @@ std::shared_ptr<const MirroredLight> BouncedPicture::surfaces(const FrameInputs&
 
 int BouncedPicture::framesLeft(int antialias) const {
   const uint64_t rays = light_.links().raysLeft() + records_.raysLeft();
-  const int height = std::max(view_.height, 1), aFrame = rowsAFrame(view_);
-  int rows = still_.hasBegun() ? still_.rowsLeft() : height;
-  if (antialias > 1)
-    rows += smooth_.samples() == antialias ? smooth_.rowsLeft() : antialias * height;
-  return static_cast<int>((rays + kRaysAFrame - 1) / kRaysAFrame) + (rows + aFrame - 1) / aFrame;
+  // A sample of a large picture takes several frames, but paths that repair it before it has
+  // settled would take longer in proportion, too.
+  const int samples = smooth_.samples() == antialias ? smooth_.sample() : 0;
+  return static_cast<int>((rays + kRaysAFrame - 1) / kRaysAFrame) +
+         (antialias > 1 ? antialias - samples : 0);
 }
 
 // Records are chosen when nothing moves and samples of the mesh have all rays, because their choice

@@ -33,7 +33,8 @@ class BouncedPicture {
     return light_.isDone() && records_.isDone() &&
            (antialias <= 1 ? still_.isComplete() : isSmooth(antialias));
   }
-  // Estimate of the frames until isDone(), without further changes.
+  // Estimate of the frames until isDone(), without further changes, of a picture whose samples are
+  // found in one frame each.
   int framesLeft(int antialias) const;
   // For debug views. Null without light. Valid until the next update.
   std::shared_ptr<const ElementView> elements() const;
