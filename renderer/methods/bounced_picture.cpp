@@ -60,7 +60,9 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
                                                      int antialias, bool& gbufferIsCurrent) {
   updateRecords(in, gbufferIsCurrent);
   // Only in frames without a change: during a motion these rays would be traced again each time.
-  const bool hasTime = isAtRest_ && !hasOtherLight_;
+  // Nor while records are chosen, which drops the pixels, if these take several frames.
+  const bool hasTime =
+      isAtRest_ && !hasOtherLight_ && (records_.isDone() || rowsAFrame(view_) >= view_.height);
   if (hasTime && !still_.isComplete())
     goOn(in, still_, 1, gbufferIsCurrent);
   else if (hasTime && antialias > 1 && !isSmooth(antialias) && records_.isDone())
@@ -104,8 +106,6 @@ std::shared_ptr<const MirroredLight> BouncedPicture::surfaces(const FrameInputs&
 
 int BouncedPicture::framesLeft(int antialias) const {
   const uint64_t rays = light_.links().raysLeft() + records_.raysLeft();
-  // A sample of a large picture takes several frames, but paths that repair it before it has
-  // settled would take longer in proportion, too.
   const int samples = smooth_.samples() == antialias ? smooth_.sample() : 0;
   return static_cast<int>((rays + kRaysAFrame - 1) / kRaysAFrame) +
          (antialias > 1 ? antialias - samples : 0);

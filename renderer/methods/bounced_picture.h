@@ -33,8 +33,9 @@ class BouncedPicture {
     return light_.isDone() && records_.isDone() &&
            (antialias <= 1 ? still_.isComplete() : isSmooth(antialias));
   }
-  // Estimate of the frames until isDone(), without further changes, of a picture whose samples are
-  // found in one frame each.
+  // Estimate of the frames until isDone(), without further changes. It counts each sample as one
+  // frame, though those of a large picture take several: by this number RepairedMethod decides
+  // whether paths are traced first, and these take longer in a large picture, too.
   int framesLeft(int antialias) const;
   // For debug views. Null without light. Valid until the next update.
   std::shared_ptr<const ElementView> elements() const;

@@ -12,13 +12,11 @@ class RestingPicture {
  public:
   // Forgets all pixels. `samples`: how many G-buffers of the view follow.
   void restart(const View& view, int samples, uint32_t seed);
-  bool hasBegun() const { return samples_ > 0; }
-  bool isComplete() const { return hasBegun() && pixels_.samples() == samples_; }
+  bool isComplete() const { return samples_ > 0 && pixels_.samples() == samples_; }
   int samples() const { return samples_; }
   // The sample that the next rows are of.
   int sample() const { return pixels_.samples(); }
-  int rowsLeft() const { return (samples_ - pixels_.samples()) * view_.height - row_; }
-  // The next rows, at most so many, of one sample, of which this is the G-buffer.
+  // The next rows, at most so many, of this sample. `gbuffer`: shifted as the sample is.
   void add(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,
            const GBufferView& gbuffer, const SurfacePictureOptions& options, int most);
 

@@ -18,14 +18,14 @@ uint16_t packed(float share) {
   return static_cast<uint16_t>(std::clamp(share, 0.0f, 1.0f) * kMost + 0.5f);
 }
 
-// Differs between places, but for a chance of 2⁻³².
-uint32_t keyOf(const GBufferPoint& p) {
-  const uint32_t place =
-      hash4(std::bit_cast<uint32_t>(p.position.x), std::bit_cast<uint32_t>(p.position.y),
-            std::bit_cast<uint32_t>(p.position.z), p.object);
-  return hash4(place, p.triangle, std::bit_cast<uint32_t>(p.normal.x),
-               std::bit_cast<uint32_t>(p.normal.y)) |
-         1u;
+// Differs between places, in the world and on the triangle, but for a chance of 2⁻³².
+uint32_t keyOf(const GBufferPoint& p, const SeenTriangle& seen) {
+  const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
+  const uint32_t inWorld =
+      hash4(bits(p.position.x), bits(p.position.y), bits(p.position.z), p.object);
+  const uint32_t onTriangle =
+      hash4(p.triangle, bits(seen.weights.x), bits(seen.weights.y), seen.isBack ? 1u : 0u);
+  return hash4(inWorld, onTriangle, bits(p.normal.x), bits(p.normal.y)) | 1u;
 }
 
 }  // namespace
@@ -56,11 +56,11 @@ void SurfacePicture::add(const GatherScene& in, const SurfaceLight& light,
   if (rows.last == height_) ++added_;
   const auto show = [&](int x, int y, Point& out) {
     const GBufferPoint p = gbuffer.at(x, y);
-    const uint32_t key = keyOf(p);
+    const SeenTriangle seen(scene, p);
+    const uint32_t key = keyOf(p, seen);
     if (keepsSame_ && out.key == key) return;
     out = {};
     out.key = key;
-    const SeenTriangle seen(scene, p);
     MeshPoint at;
     if (!seen.isSound || !in.mesh.find(scene, p.object, p.triangle, seen.isBack, seen.weights, at))
       return;

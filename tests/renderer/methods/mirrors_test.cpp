@@ -81,6 +81,22 @@ TEST_P(Mirrors, AreThereInTheSecondFrameAtRest) {
       settled, test::freshPicture(makeCpuBackend(), room_.scene, room_.view, settings(4))));
 }
 
+// In a picture that is so large that its pixels are found over several frames.
+TEST_P(Mirrors, FollowTheBrightnessOfALamp) {
+  room_.view.width = 480;
+  room_.view.height = 360;
+  FrameRenderer renderer(makeCpuBackend());
+  const Image dark =
+      test::settledPicture(renderer, room_.scene, SceneChanges::all(), room_.view, settings(2));
+  const Scene before = room_.scene;
+  room_.scene.find(room_.lamp)->area->radiance *= 3.0f;
+  const Image bright = test::settledPicture(renderer, room_.scene, compare(before, room_.scene),
+                                            room_.view, settings(2));
+  EXPECT_FALSE(test::sameBits(bright, dark));
+  EXPECT_TRUE(test::sameBits(
+      bright, test::freshPicture(makeCpuBackend(), room_.scene, room_.view, settings(2))));
+}
+
 INSTANTIATE_TEST_SUITE_P(Carriers, Mirrors, testing::Values("meshes", "links", "field"),
                          [](const auto& carrier) { return std::string(carrier.param); });
 

@@ -8,6 +8,9 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -126,6 +129,30 @@ void brighten(Scene& scene, bool isDone) {
   if (scene.sky.kind == SkyKind::image) scene.sky.scale *= factor;
 }
 
+// The stages of the first frame after an edit that take longest, means of some edits.
+class FirstFrames {
+ public:
+  void take(const GiStats& stats) {
+    ++frames_;
+    for (const auto& [stage, seconds] : stats.stageSeconds) seconds_[stage.name] += seconds;
+  }
+  std::string text() const {
+    constexpr double kLeast = 5e-3;  // seconds
+    std::vector<std::pair<double, std::string_view>> stages;
+    for (const auto& [name, seconds] : seconds_)
+      if (seconds >= kLeast * frames_) stages.emplace_back(seconds / frames_, name);
+    std::ranges::sort(stages, std::greater());
+    std::string text = "first:";
+    for (const auto& [seconds, name] : stages)
+      text += fmt::format(" {} {:.0f} ms,", name, 1e3 * seconds);
+    return text;
+  }
+
+ private:
+  int frames_ = 0;
+  std::map<std::string_view, double> seconds_;  // by stage
+};
+
 // The longest of some frames, and its longest stage.
 class Longest {
  public:
@@ -136,9 +163,9 @@ class Longest {
     if (stage == out.stats.stageSeconds.end()) return;
     stage_ = fmt::format("{} {:.0f} ms", stage->stage.name, 1e3 * stage->seconds);
   }
-  void report(benchmark::State& state) const {
+  void report(benchmark::State& state, const std::string& more = "") const {
     state.counters["ms_longest"] = 1e3 * seconds_;
-    state.SetLabel("longest: " + stage_);
+    state.SetLabel(more + " longest: " + stage_);
   }
 
  private:
@@ -159,6 +186,7 @@ void measure(benchmark::State& state, const Run& run, bool startsWithLamp, const
   window.settle(scene, SceneChanges::all(), opened.view);
   double first = 0.0, rays = 0.0, settledAtOnce = 0.0;
   Longest longest;
+  FirstFrames firstFrames;
   bool isDone = false;
   int edits = 0;
   for (auto _ : state) {
@@ -168,6 +196,7 @@ void measure(benchmark::State& state, const Run& run, bool startsWithLamp, const
     const uint64_t raysBefore = window.backend().counts().rays;
     GiOutput out = window.frame(scene, compare(before, scene), opened.view, "edit");
     first += window.lastFrame();
+    firstFrames.take(out.stats);
     rays += static_cast<double>(window.backend().counts().rays - raysBefore) +
             static_cast<double>(out.stats.raysTraced);
     settledAtOnce += out.settled ? 1.0 : 0.0;
@@ -185,7 +214,7 @@ void measure(benchmark::State& state, const Run& run, bool startsWithLamp, const
     settled += r.settled.milliseconds / count;
   }
   state.counters["ms_first"] = 1e3 * first / edits;
-  longest.report(state);
+  longest.report(state, firstFrames.text());
   state.counters["ms_95"] = within95;
   state.counters["ms_settled"] = settled;
   state.counters["rays_first"] = rays / edits;

@@ -57,32 +57,33 @@ uint64_t SpecularSamples::glossyPixels() const {
   return pixels;
 }
 
-// What the pixels around a sample take of it, by pixel of the G-buffer of samples.
-std::vector<SpecularSamples::Even> SpecularSamples::evenLight(const GBuffer& samples) const {
-  std::vector<Even> even(samples.hit.size());
+// By pixel of the G-buffer of samples. Divided once here, not for each pixel around a sample.
+std::vector<SpecularSamples::Demodulated> SpecularSamples::demodulated(
+    const GBuffer& samples) const {
+  std::vector<Demodulated> out(samples.hit.size());
   tbb::parallel_for(0, samples.tiles(), [&](int tile) {
     const size_t first = static_cast<size_t>(tile) * kTilePixels;
     for (size_t i = first; i < first + kTilePixels; ++i) {
       if (samples.hit[i] == 0) continue;
       if (const auto there = sums_.reflection(i))
-        even[i] = {there->radiance / reflectance(samples.albedo(i), there->gloss), true};
+        out[i] = {there->radiance / reflectance(samples.albedo(i), there->gloss), true};
     }
   });
-  return even;
+  return out;
 }
 
 void SpecularSamples::addTo(const GBuffer& g, const LowResolution& low, Image& picture) const {
   const GBuffer& samples = low.samples();
-  const std::vector<Even> even = evenLight(samples);
+  const std::vector<Demodulated> light = demodulated(samples);
   tbb::parallel_for(size_t{0}, tiles_.size(), [&](size_t t) {
     forEachGlossy(g, t, tiles_[t].gloss, [&](int x, int y, size_t i, const Gloss& gloss) {
       vec3 sum(0.0f);
       float weights = 0.0f;
       for (const LowResolution::Corner& c : low.cornersOf(x, y)) {
         const size_t sample = samples.index(c.i, c.j);
-        if (!even[sample].isKnown || samples.object[sample] != g.object[i]) continue;
+        if (!light[sample].isKnown || samples.object[sample] != g.object[i]) continue;
         const float weight = (c.share + kLeastShare) * likeness(g, i, samples, sample);
-        sum += weight * even[sample].light;
+        sum += weight * light[sample].radiance;
         weights += weight;
       }
       if (weights > 0.0f)

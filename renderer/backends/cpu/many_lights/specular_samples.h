@@ -43,11 +43,11 @@ class SpecularSamples {
   };
 
   // Radiance of highlights, divided by the reflectance of the surface.
-  struct Even {
-    vec3 light{0.0f};
+  struct Demodulated {
+    vec3 radiance{0.0f};
     bool isKnown = false;
   };
-  std::vector<Even> evenLight(const GBuffer& samples) const;
+  std::vector<Demodulated> demodulated(const GBuffer& samples) const;
 
   bool isOn_ = false;
   SpecularAccumulator sums_;  // at the samples
