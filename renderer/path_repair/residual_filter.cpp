@@ -48,15 +48,14 @@ constexpr float kBorderVariances = 2.0f;
 // these are known from few groups of paths.
 constexpr float kSurePixel = 9.0f, kFewGroups = 10.0f;
 // Pixels whose mean after the fine bands still has this share of their noise have few neighbours
-// that show the same surface: leaves, legs of chairs, edges. From twice that on they take all of
-// their own paths.
-constexpr float kAlone = 0.1f;
+// that show the same surface: leaves, legs of chairs, edges. From twice that on fewer variances are
+// enough for their own paths.
+constexpr float kAlone = 0.1f, kSureAlone = 2.0f;
 // All pixels of their window together have about so many paths.
 constexpr float kWindowSamples = 600.0f;
 constexpr int kLeastRadius = 2, kMostRadius = 8;  // of the window [pixels]
-// With fewer paths than the first, these pixels are rather scaled as those around them, and with
-// fewer than the second they rather stay as they are.
-constexpr float kWindowPaths = 32.0f, kOwnPaths = 32.0f;
+// With fewer paths, these pixels are rather scaled as those around them.
+constexpr float kWindowPaths = 32.0f;
 
 float squareOf(const vec3& v) { return glm::dot(v, v); }
 
@@ -404,16 +403,14 @@ void ResidualFilter::addWindow(Rows rows) {
 // at the wrong place. It is shown where it exceeds by far the noise of the paths of the pixel and,
 // because paths that find nothing show none, of those around it.
 void ResidualFilter::addPixels(Rows rows) {
-  const float paths = paths_.weight;
   const float sure = kSurePixel * (1.0f + kFewGroups / paths_.groups);
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3 left = mean(i) - known(i) - residual_.pixels[i];
     const float power = squareOf(left);
     if (!(power > 0.0f)) return;
     const float noise = std::max(paths_.variance(i), squareOf(guides_.albedo[i]) * noise_[i].noise);
-    const float own = aloneness(i) * paths / (paths + kOwnPaths);
-    const float share = std::max(1.0f - sure * noise / power, own);
-    residual_.pixels[i] += share * left;
+    const float variances = glm::mix(sure, kSureAlone, aloneness(i));
+    residual_.pixels[i] += std::max(1.0f - variances * noise / power, 0.0f) * left;
   });
 }
 

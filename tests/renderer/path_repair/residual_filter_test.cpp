@@ -193,6 +193,13 @@ TEST_F(Residuals, PixelsWithoutNeighboursTakeTheirOwnPaths) {
     EXPECT_GE(residual.pixels[i].x, 0.79f * live.pixels[i].x);
 }
 
+TEST_F(Residuals, PixelsWithoutNeighboursShowLittleNoiseOfRightPictures) {
+  trace(32, 4);
+  Image out = residualOf(leavesLike(guides));
+  for (size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] += live.pixels[i];
+  EXPECT_LT(errorOf(out), 0.4 * errorOf(meanOfPaths()));
+}
+
 // Of two halves, whose groups of four are independent: a variance of groups is that of paths over
 // four.
 TEST(PathSumsTest, TheVarianceIsThatOfTheMean) {
