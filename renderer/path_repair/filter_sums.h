@@ -8,8 +8,8 @@
 
 namespace lamplighter {
 
-// Residuals and the picture times albedo, and the square of albedo: their quotients are those of a
-// white surface, by least squares.
+// Residuals, the picture and the albedo: the quotients are those of a white surface. The noise of
+// paths grows with the albedo, so bright surfaces do not count more than dark ones beside them.
 struct ResidualSums {
   // Neighbours in a coarse band share paths: their mean has so much more variance than that of
   // independent ones.
@@ -18,16 +18,21 @@ struct ResidualSums {
   Halves tame;
   vec3 excess{0.0f};  // of both halves: what was bounded, which only the widest mean gets
   vec3 picture{0.0f};
-  vec3 squares{0.0f};
+  vec3 albedo{0.0f};
   float variance = 1.0f;  // of the mean, with the variance of a pixel 1
 
+  // Weight of a neighbour, to 1: the mean of fewer pixels is noisier. Otherwise thin bars near a
+  // wall leave copies of their noise on it, at the distance of a step.
+  float trust(const ResidualSums& neighbour) const {
+    return std::min(variance / neighbour.variance, 1.0f);
+  }
   static ResidualSums nothing() { return {{}, vec3(0.0f), vec3(0.0f), vec3(0.0f), 0.0f}; }
   void add(float w, const ResidualSums& s) {
     tame.first += w * s.tame.first;
     tame.second += w * s.tame.second;
     excess += w * s.excess;
     picture += w * s.picture;
-    squares += w * s.squares;
+    albedo += w * s.albedo;
     variance += kCorrelation * w * w * s.variance;
   }
   void divide(float all) {
@@ -36,7 +41,7 @@ struct ResidualSums {
     tame.second *= scale;
     excess *= scale;
     picture *= scale;
-    squares *= scale;
+    albedo *= scale;
     variance = std::min(variance * scale * scale, 1.0f);
   }
 };
@@ -45,6 +50,7 @@ struct ResidualSums {
 struct ResidualBounds {
   float difference = 0.0f, residual = 0.0f;
 
+  float trust(const ResidualBounds&) const { return 1.0f; }
   static ResidualBounds nothing() { return {}; }
   void add(float w, const ResidualBounds& b) {
     difference += w * b.difference;
@@ -74,6 +80,7 @@ struct BandPowers {
         picture(glm::dot(ofPicture, ofPicture)),
         withPicture(glm::dot(ofPicture, detail.mean())) {}
 
+  float trust(const BandPowers&) const { return 1.0f; }
   static BandPowers nothing() {
     BandPowers p;
     p.share = 0.0f;
@@ -103,6 +110,7 @@ struct BandPowers {
 struct BandNoise {
   float noise = 0.0f, share = 1.0f;  // as BandPowers
 
+  float trust(const BandNoise&) const { return 1.0f; }
   static BandNoise nothing() { return {0.0f, 0.0f}; }
   void add(float w, const BandNoise& n) {
     noise += w * n.noise;

@@ -290,11 +290,7 @@ void ResidualFilter::beginBands(Rows rows) {
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3& albedo = guides_.albedo[i];
     const vec3 all = mean(i) - known(i);
-    sums_[i] = {{albedo * tame_[i].first, albedo * tame_[i].second},
-                albedo * (all - tame_[i].mean()),
-                albedo * live_.pixels[i],
-                albedo * albedo,
-                1.0f};
+    sums_[i] = {tame_[i], all - tame_[i].mean(), live_.pixels[i], albedo, 1.0f};
   });
   if (rows.last < guides_.height) return;
   smooth_ = tame_;
@@ -306,7 +302,7 @@ void ResidualFilter::beginBands(Rows rows) {
 // What the last means took away.
 void ResidualFilter::takeDetail(int band, Rows rows) {
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
-    const vec3 scale = guides_.albedo[i] / sums_[i].squares;
+    const vec3 scale = guides_.albedo[i] / sums_[i].albedo;
     const Halves now{scale * sums_[i].tame.first, scale * sums_[i].tame.second};
     const Halves detail{smooth_[i].first - now.first, smooth_[i].second - now.second};
     smooth_[i] = now;
@@ -322,7 +318,7 @@ void ResidualFilter::takeDetail(int band, Rows rows) {
 // What is left: the mean over the whole surroundings, with all that was bounded.
 void ResidualFilter::takeBase(Rows rows) {
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
-    const vec3 excess = guides_.albedo[i] / sums_[i].squares * sums_[i].excess;
+    const vec3 excess = guides_.albedo[i] / sums_[i].albedo * sums_[i].excess;
     variance_[i] = sums_[i].variance;
     detail_[i] = {smooth_[i].first + excess, smooth_[i].second + excess};
     powers_[i] = BandPowers(detail_[i]);

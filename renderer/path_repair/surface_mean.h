@@ -25,7 +25,7 @@ void forSurfaces(const RepairGuides& guides, Rows rows, const F& f) {
 
 // From pixels at a distance of 0 or `step` in each direction: T::add(weight, T) sums, then
 // T::divide(sum of weights). Weights fall with the angle between normals and with the distance off
-// the plane of the pixel. `to`: receives these rows.
+// the plane of the pixel, and T::trust(neighbour) scales them. `to`: receives these rows.
 template <typename T>
 void takeSurfaceMeans(const RepairGuides& guides, Rows rows, const std::vector<T>& from, int step,
                       std::vector<T>& to) {
@@ -52,7 +52,8 @@ void takeSurfaceMeans(const RepairGuides& guides, Rows rows, const std::vector<T
         float turn = cosine;
         for (int power = 1; power < 32; power *= 2) turn *= turn;
         const float weight = kSpline[static_cast<size_t>(std::abs(dx))] *
-                             kSpline[static_cast<size_t>(std::abs(dy))] * near * near * turn;
+                             kSpline[static_cast<size_t>(std::abs(dy))] * near * near * turn *
+                             from[i].trust(from[k]);
         sum.add(weight, from[k]);
         all += weight;
       }

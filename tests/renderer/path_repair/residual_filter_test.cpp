@@ -200,6 +200,32 @@ TEST_F(Residuals, PixelsWithoutNeighboursShowLittleNoiseOfRightPictures) {
   EXPECT_LT(errorOf(out), 0.4 * errorOf(meanOfPaths()));
 }
 
+// Thin and bright bars off a dark wall, whose noise few pixels share.
+TEST_F(Residuals, BarsLeaveNoCopiesOfTheirNoiseOnAWall) {
+  RepairGuides bars = guides;
+  const auto isBar = [](size_t i) { return i / kWidth % 12 == 6; };
+  for (size_t i = 0; i < bars.albedo.size(); ++i) {
+    bars.albedo[i] = vec3(isBar(i) ? 0.9f : 0.05f);
+    bars.normal[i] = vec3(0, 0, 1);
+    bars.position[i].z = isBar(i) ? 0.025f : 0.0f;
+    bars.position[i].y = -0.01f * static_cast<float>(i / kWidth);
+    truth.pixels[i] = bars.albedo[i];
+  }
+  live = truth;
+  for (vec3& p : live.pixels) p *= 0.5f;
+  trace(24, 12);
+  const Image residual = residualOf(bars);
+  double error = 0.0, walls = 0.0;
+  for (size_t i = 0; i < residual.pixels.size(); ++i) {
+    if (isBar(i)) continue;
+    const float above =
+        i < kWidth || isBar(i - kWidth) ? residual.pixels[i].x : residual.pixels[i - kWidth].x;
+    error += glm::pow(static_cast<double>((residual.pixels[i].x - above) / 0.025f), 2.0);
+    walls += 1.0;
+  }
+  EXPECT_LT(std::sqrt(error / walls), 0.04);
+}
+
 // Of two halves, whose groups of four are independent: a variance of groups is that of paths over
 // four.
 TEST(PathSumsTest, TheVarianceIsThatOfTheMean) {
