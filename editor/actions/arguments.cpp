@@ -18,6 +18,15 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
+std::string callText(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    const bool isPlain = word.find_first_of(" \"\\") == word.npos;
+    text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
+  }
+  return text;
+}
+
 float numberOf(const std::string& text) {
   float v = 0.0f;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);

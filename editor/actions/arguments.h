@@ -15,6 +15,8 @@ using Arguments = std::vector<std::string>;
 
 // Quotes a text so that the parser reads it as one argument.
 std::string quoted(const std::string& text);
+// The words of a call as one text: those with spaces or quotes are quoted.
+std::string callText(const std::vector<std::string>& words);
 float numberOf(const std::string& text);
 // Reads three numbers, starting at argument `from`.
 vec3 vectorOf(const Arguments& arguments, size_t from);

@@ -94,12 +94,7 @@ void addPlaceActions(ActionRegistry& r) {
          "", [](Session& s, const Arguments& a) {
            if (s.actions().find(a[0]) == nullptr)
              throw InputError(a[0], "there is no such action", "give one such as light.add disk");
-           std::string text;
-           for (const std::string& word : a) {
-             const bool isPlain = word.find_first_of(" \"\\") == word.npos;
-             text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
-           }
-           s.startPlacing(text);
+           s.startPlacing(callText(a));
            s.setStatus("Click a surface to place it; Esc cancels", NoticeKind::hint);
          }});
   const std::string kinds = r.find("light.add")->usage;

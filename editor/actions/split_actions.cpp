@@ -6,6 +6,7 @@
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
+#include "renderer/methods/path_tracer/reference_method.h"
 
 namespace lamplighter {
 namespace {

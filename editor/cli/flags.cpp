@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "editor/bake/bake_methods.h"
 #include "editor/cli/manual.h"
 #include "editor/cli/subcommands.h"
 #include "editor/document/sky_text.h"
@@ -281,11 +282,14 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_option("-o,--output", o->output, "Folder for the pages and the copy; made if need be")
       ->type_name("FOLDER")
       ->required();
-  sub.add_option("--method", o->method,
-                 "many_lights: its settled light samples, with exact shadows; multi_mesh: smooth "
-                 "bounced light from elements of surface; surface_shadow_maps: bounced light "
-                 "gathered at each texel; or the reference")
-      ->check(CLI::IsMember({"many_lights", "multi_mesh", "surface_shadow_maps", "reference"}))
+  std::string ways;
+  std::vector<std::string> names;
+  for (const BakeMethodInfo& method : bakeMethods()) {
+    ways += (ways.empty() ? "" : "; ") + method.name + ": " + method.summary;
+    names.push_back(method.name);
+  }
+  sub.add_option("--method", o->method, ways)
+      ->check(CLI::IsMember(names))
       ->capture_default_str();
   sub.add_option("--density", o->atlas.texelsPerMetre, "Texels a metre")
       ->type_name("X")

@@ -18,6 +18,7 @@
 #include "renderer/base/threads.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/tone_map.h"
+#include "renderer/methods/path_tracer/reference_method.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter::cli {

@@ -46,7 +46,10 @@ std::vector<PreferenceSection> declared() {
          "Thumbnails",
          "px",
          "Size of the previews in the asset browser.",
-         {48, 192}}}},
+         {48, 192}}},
+       true,
+       // A slider would move away from the pointer with each change.
+       {{"ui_scale", {"0.75", "1", "1.25", "1.5", "2", "3"}}}},
       {"Input",
        {&S::keys, "keys", "Keys",
         "Which keys move, rotate and scale; keys.json in the same folder binds single actions.",
@@ -97,7 +100,8 @@ std::vector<PreferenceSection> declared() {
          "Render panel",
          "",
          "Its share of the right column's height.",
-         {0.15, 0.85}}}},
+         {0.15, 0.85}}},
+       false},
   };
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct UserSettings {
 struct PreferenceSection {
   std::string label;
   ParameterTable<UserSettings> table;
+  bool isOpen = true;  // at first
+  // Values that the panel offers for a setting in place of a slider, by name.
+  std::map<std::string, std::vector<std::string>> offered = {};
 };
 const std::vector<PreferenceSection>& preferenceSections();
 // nullptr if the name is unknown.

@@ -8,6 +8,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/error.h"
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/path_tracer/reference_method.h"
 
 namespace lamplighter {
 
@@ -154,10 +155,10 @@ void Session::setRender(const RenderSettings& settings) {
 void Session::toggleReference() {
   if (split_.on()) return split_.toggleWhole();
   RenderSettings settings = document_.render;
-  if (settings.method == "reference") {
+  if (settings.method == kReferenceMethod) {
     settings.method = methodBeforeReference_;
   } else {
-    methodBeforeReference_ = std::exchange(settings.method, "reference");
+    methodBeforeReference_ = std::exchange(settings.method, kReferenceMethod);
   }
   setRender(settings);
 }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "renderer/base/error.h"
+#include "renderer/methods/path_tracer/reference_method.h"
 #include "renderer/registry/registry.h"
 
 namespace lamplighter {

@@ -8,8 +8,6 @@
 
 namespace lamplighter {
 
-inline constexpr char kReferenceMethod[] = "reference";
-
 // "live" or the name of a method; either may have its own parameters: "many_lights,vpls=1000".
 struct SplitSide {
   std::string text = "live";

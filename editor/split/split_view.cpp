@@ -9,6 +9,7 @@
 #include "editor/notices/failure_text.h"
 #include "editor/split/heat_map.h"
 #include "renderer/image/average_blocks.h"
+#include "renderer/methods/path_tracer/reference_method.h"
 
 namespace lamplighter {
 

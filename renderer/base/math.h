@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 namespace lamplighter {

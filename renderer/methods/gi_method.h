@@ -147,6 +147,8 @@ struct MethodInfo {
   MethodNeeds needs = {};
   std::vector<ShownCapability> shows = {};  // besides its own views
   std::vector<MethodView> views = {};       // its own
+  // The parameter whose choices the split view offers as sides of their own; "": none.
+  std::string variant = {};
 };
 
 }  // namespace lamplighter

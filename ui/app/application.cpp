@@ -291,9 +291,12 @@ void Application::drawDialogs(PanelContext ui) {
     if (!action.empty()) runAction(action);
   if (fileDialog_.cancelled()) pending_ = Pending::none;
   if (!loader_.running()) {
-    const std::string action = recoveryDialog_.draw(ui);
-    if (!action.empty() && !session_->runAction(action)) showError(session_->status());
-    if (action == "recovery.recover") framesToExposure_ = 0;  // it has its own exposure
+    const RecoveryDialog::Answer answer = recoveryDialog_.draw(ui);
+    const bool isRecovered = answer == RecoveryDialog::Answer::recover;
+    if (answer != RecoveryDialog::Answer::none &&
+        !session_->runAction(isRecovered ? "recovery.recover" : "recovery.discard"))
+      showError(session_->status());
+    if (isRecovered) framesToExposure_ = 0;  // it has its own exposure
   }
   settingsDialog(ui, settingsState_, requests_);
   switch (saveQuestion_.draw(ui)) {

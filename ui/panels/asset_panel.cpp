@@ -16,8 +16,8 @@
 namespace lamplighter {
 namespace {
 
-std::string actionOf(const AssetFile& file) {
-  return "place.start asset.place " + quoted(file.path.string());
+std::string placingOf(const AssetFile& file) {
+  return callText({"asset.place", file.path.string()});
 }
 
 // The file name without its folder, shortened to the available width.
@@ -87,12 +87,11 @@ void grid(const PanelContext& ui, const std::vector<AssetFile>& files, Thumbnail
     const AssetFile& file = files[i];
     if (i % static_cast<size_t>(columns) != 0) ImGui::SameLine(0, gap);
     const ImVec2 low = ImGui::GetCursorScreenPos();
-    const std::string action = actionOf(file);
-    const std::string& placed = ui.session.placed();
-    const bool isPlaced =
-        placed.starts_with("asset.place ") && placed.find(file.path.string()) != std::string::npos;
+    const std::string placing = placingOf(file);
+    const bool isPlaced = ui.session.placed() == placing;
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::Selectable("##asset", isPlaced, 0, {side, high})) requests.actions.push_back(action);
+    if (ImGui::Selectable("##asset", isPlaced, 0, {side, high}))
+      requests.actions.push_back("place.start " + placing);
     ImGui::PopID();
     ui.name(file.name);
     // Items outside the visible area are not rendered until they are scrolled into view.

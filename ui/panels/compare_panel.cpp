@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "renderer/methods/path_tracer/reference_method.h"
 #include "renderer/registry/registry.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/theme.h"
@@ -12,13 +13,13 @@
 namespace lamplighter {
 namespace {
 
-// The predefined sides: live, each method, and each method with each of its techniques.
+// The predefined sides: live, each method, and each variant of a method.
 std::vector<std::string> sides() {
   std::vector<std::string> all{"live"};
   for (const MethodInfo& method : methods()) {
     all.push_back(method.name);
     for (const ParameterSpec& spec : method.parameters)
-      if (spec.name == "technique")
+      if (spec.name == method.variant)
         for (const std::string& choice : spec.choices)
           all.push_back(method.name + "," + spec.name + "=" + choice);
   }
@@ -102,7 +103,7 @@ void compareSection(const PanelContext& ui, Requests& requests) {
   shownRow(ui, requests);
   const SplitView& split = ui.session.split();
   const std::string a = split.on() ? split.first().text : "live";
-  const std::string b = split.on() ? split.second().text : "reference";
+  const std::string b = split.on() ? split.second().text : kReferenceMethod;
   const auto first = sideCombo(ui, "A, left", "side_a", a);
   const auto second = sideCombo(ui, "B, right", "side_b", b);
   if (first || second) {

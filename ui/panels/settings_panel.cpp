@@ -12,24 +12,18 @@
 namespace lamplighter {
 namespace {
 
-// Changing the scale during the drag would move the slider away from the pointer.
-bool waitsForRelease(const ParameterSpec& spec) { return spec.name == "ui_scale"; }
-
-void uiScaleRow(const PanelContext& ui, const ParameterSpec& spec, Requests& requests) {
-  static const std::string kScales[] = {"0.75", "1", "1.25", "1.5", "2", "3"};
-  const std::string now = Settings::format(ui.session.home().preferences.values.real(spec));
-  const int chosen = combo(ui, spec.name, now, kScales);
-  if (chosen != kNone) requests.actions.push_back("view.ui_scale " + kScales[chosen]);
-}
-
 void values(const PanelContext& ui, Requests& requests) {
   const Settings& settings = ui.session.home().preferences.values;
   for (const PreferenceSection& part : preferenceSections()) {
-    if (!section(ui, part.label.c_str(), part.label != "Window")) continue;
+    if (!section(ui, part.label.c_str(), part.isOpen)) continue;
     for (const ParameterSpec& spec : part.table.specs()) {
       labelledRow(ui, spec.label.c_str(), spec.help.c_str());
-      if (waitsForRelease(spec)) {
-        uiScaleRow(ui, spec, requests);
+      if (const auto offered = part.offered.find(spec.name); offered != part.offered.end()) {
+        const std::string now = Settings::format(settings.real(spec));
+        const int chosen = combo(ui, spec.name, now, offered->second);
+        if (chosen != kNone)
+          requests.actions.push_back("settings.set " + spec.name + "=" +
+                                     offered->second[static_cast<size_t>(chosen)]);
       } else if (const auto value = parameterField(ui, spec, settings, false)) {
         requests.actions.push_back("settings.set " + spec.name + "=" + Settings::format(*value));
       }

@@ -457,7 +457,9 @@ MethodInfo manyLightsInfo() {
            {Capability::elements, "with indirect=meshes"},
            {Capability::transfer, "with prt"},
            {Capability::points, "with prt"},
-           {Capability::links, "with indirect=links or indirect=meshes"}}};
+           {Capability::links, "with indirect=links or indirect=meshes"}},
+          {},
+          "technique"};
 }
 
 }  // namespace lamplighter

@@ -128,7 +128,7 @@ const ParameterTable<PathTracerParameters>& pathTracerParameters() {
 }
 
 MethodInfo referenceInfo() {
-  return {"reference",
+  return {kReferenceMethod,
           "Reference (path tracing)",
           "J. T. Kajiya: The rendering equation. SIGGRAPH 1986. Light sampling combined as in E. "
           "Veach and L. Guibas: "

@@ -5,6 +5,8 @@
 
 namespace lamplighter {
 
+inline constexpr char kReferenceMethod[] = "reference";
+
 MethodInfo referenceInfo();
 
 }  // namespace lamplighter

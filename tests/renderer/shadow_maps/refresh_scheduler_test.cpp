@@ -94,7 +94,7 @@ TEST_F(Movers, AreMovedAddedAndRemovedObjectsOnly) {
   EXPECT_EQ(movers[0].before.min, vec3(-0.5f));
   EXPECT_EQ(movers[0].after.min, vec3(-0.5f, 1.5f, -0.5f));
 
-  scene.find(a)->local.rotation = glm::angleAxis(glm::half_pi<float>(), vec3(0, 1, 0));
+  scene.find(a)->local.rotation = glm::angleAxis(0.5f * kPi, vec3(0, 1, 0));
   EXPECT_EQ(step().size(), 1u);  // the bounds of the cube are the same, but it has rotated
 
   const NodeId c = test::addMesh(scene, test::boxMesh(vec3(1)), vec3(9, 0, 0));

@@ -110,7 +110,7 @@ void moveObject(benchmark::State& state, const Case& c, bool inCircles) {
   const auto move = [&] {
     Scene moved = w.scene;
     const float angle = inCircles ? glm::radians(20.0f * static_cast<float>(step))
-                                  : glm::pi<float>() * static_cast<float>(step % 2);
+                                  : kPi * static_cast<float>(step % 2);
     moved.find(w.mover)->local.translation +=
         kStep * vec3(std::cos(angle), 0.0f, inCircles ? std::sin(angle) : 0.0f);
     ++step;

@@ -26,17 +26,17 @@ void line(const PanelContext& ui, const char* label, const std::string& value) {
 
 }  // namespace
 
-std::string RecoveryDialog::draw(PanelContext ui) {
+RecoveryDialog::Answer RecoveryDialog::draw(PanelContext ui) {
   constexpr const char* kTitle = "Recover unsaved work?";
   ui.prefix = "recovery/";
   const auto& found = ui.session.crashRecovery().found();
-  if (later_ || found.empty()) return {};
+  if (later_ || found.empty()) return Answer::none;
   if (!ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(ui.px(480), 0.96f * ImGui::GetMainViewport()->Size.x), 0});
   if (!beginBorderedModal(kTitle, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoSavedSettings))
-    return {};
+    return Answer::none;
   const Recoverable& newest = found.front();
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextUnformatted("Lamplighter ended before this was saved:");
@@ -49,7 +49,7 @@ std::string RecoveryDialog::draw(PanelContext ui) {
   line(ui, "Last at", timeText(newest.time));
   if (found.size() > 1) note("And " + std::to_string(found.size() - 1) + " more after this one.");
   ImGui::Dummy({0, ui.px(6)});
-  std::string action;
+  Answer answer = Answer::none;
   const float width = ui.px(96);
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 3 * width - 2 * ui.px(7));
   if (ImGui::Button("Later", {width, 0}) ||
@@ -58,18 +58,18 @@ std::string RecoveryDialog::draw(PanelContext ui) {
   ui.name("later");
   tooltip(ui, "Keeps the recovery file. The next start asks again.");
   ImGui::SameLine(0, ui.px(7));
-  if (ImGui::Button("Discard", {width, 0})) action = "recovery.discard";
+  if (ImGui::Button("Discard", {width, 0})) answer = Answer::discard;
   ui.name("discard");
   ImGui::SameLine(0, ui.px(7));
   if (ImGui::Button("Recover", {width, 0}) ||
       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))
-    action = "recovery.recover";
+    answer = Answer::recover;
   ui.name("recover");
   // Only one level can be open. The others are offered at the next start.
-  if (action == "recovery.recover") later_ = true;
-  if (later_ || !action.empty()) ImGui::CloseCurrentPopup();
+  if (answer == Answer::recover) later_ = true;
+  if (later_ || answer != Answer::none) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
-  return action;
+  return answer;
 }
 
 }  // namespace lamplighter

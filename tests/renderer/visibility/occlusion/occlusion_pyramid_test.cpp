@@ -92,7 +92,7 @@ TEST(OcclusionPyramid, AWallAtTheBorderOfThePatchIsNoOccluder) {
   Setting open(0.0f, vec3(0));
   Scene scene = open.scene;
   const NodeId wall = test::addMesh(scene, test::squareMesh(2.0f, 0), vec3(-1, 1, 0));
-  scene.find(wall)->local.rotation = glm::angleAxis(glm::half_pi<float>(), vec3(0, 0, -1));
+  scene.find(wall)->local.rotation = glm::angleAxis(0.5f * kPi, vec3(0, 0, -1));
   Setting walled(scene);
   for (const vec3& at : {vec3(0.9f, 1, 0.2f), vec3(-0.5f, 2, 0), vec3(5, 0.8f, -3)})
     EXPECT_EQ(walled.of(test::makeVpl(at, glm::normalize(vec3(0, 0, 0) - at))), Occlusion::none);
