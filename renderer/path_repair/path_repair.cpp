@@ -25,11 +25,10 @@ constexpr int kPathsAWhole = 4;
 // Russian roulette of all paths begins at this bounce.
 constexpr int kSureBounces = 2;
 
-// So many rows of a step of the filter count as a row of paths. On average 60 to 90 take as long;
-// some steps are slower.
+// This number of rows of a step of the filter counts as a row of paths. On average 60 to 90 take as
+// long; some steps are slower.
 constexpr int kFilterRows = 48;
-// The memory of the filter and of the sums is some 700 bytes a pixel: larger pictures are not
-// repaired.
+// The filter and the sums need some 700 bytes for each pixel: larger pictures are not repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
 // Whether the picture after so many paths is filtered: always half as many more than the last. The
@@ -37,6 +36,11 @@ constexpr size_t kMostPixels = size_t{4} << 20;
 bool isShown(int paths, int last, int all, bool isPreview) {
   const int next = isPreview ? std::min(2 * last, last + 4) : (3 * last + 1) / 2;
   return paths % 2 == 0 && (paths >= all || paths >= next);
+}
+
+// Whether a preview is shown after this number of the pixels of each block.
+bool isShownCoarsely(int cells, int all) {
+  return 2 * cells <= all && (cells == 1 || cells == 4 || cells == 8);
 }
 
 }  // namespace
@@ -57,6 +61,8 @@ void PathRepair::begin(const FrameInputs& in, const Options& options) {
   lights_ = LightSet::forPaths(in.scene);
   whole_ = PathSums(in.view.width, in.view.height);
   for (auto& half : hasLightAlone_) half.assign(pixels, 0);
+  const int side = CoarsePreview::sideOf(in.view.width, in.view.height);
+  if (side > 1) coarse_ = std::make_unique<CoarsePreview>(guides_, side);
 }
 
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
@@ -71,7 +77,10 @@ int PathRepair::goOn(const FrameInputs& in, const Options& options,
     takePicture(live, options.isPreview, endsAtSurfaces);
   int done = 0;
   while (done < most && !isDone(options))
-    done += filter_ ? filter(most - done) : tracePaths(in, options, surfaces, most - done);
+    done += filter_                             ? filter(most - done)
+            : coarse_ && coarse_->isFiltering() ? filterBlocks(most - done)
+            : coarse_                           ? traceCells(in, options, most - done)
+                                                : tracePaths(in, options, surfaces, most - done);
   return done;
 }
 
@@ -87,6 +96,7 @@ void PathRepair::takePicture(const std::shared_ptr<RadianceImage>& live, bool is
   endsAtSurfaces_ = endsAtSurfaces;
   ended_ = missing_ = {};
   dropFilter();
+  if (coarse_ && !isPreview) coarse_->dropFilter();
   if (hasNoPixels()) return;
   if (endsAtSurfaces) ended_ = missing_ = PathSums(view_.width, view_.height);
   if (isPreview && whole_.paths < kWholePaths) return;
@@ -101,19 +111,97 @@ bool PathRepair::hasSeenLight(int x, int y, size_t half, uint32_t sample) const 
   return guides_.isAtLight(x, y) && (sample == 0 || hasLightAlone_[half][i] == 0);
 }
 
+// What a path begins with: what it is told, and what rays found before it.
+struct PathRepair::Start {
+  PathTracerOptions path;
+  SeenLight seen{.surfaces = 1.0f};
+  bool hasPath() const { return seen.surfaces > 0.0f; }
+};
+
+PathRepair::Start PathRepair::startAt(const Tracing& in, int x, int y, size_t half, uint32_t sample,
+                                      uint64_t& rays) {
+  Start start{.path = path_};
+  start.path.seed = seedOfHalf(path_.seed, static_cast<uint32_t>(half));
+  start.path.sureBounces = kSureBounces;
+  start.path.seesLights = !hasSeenLight(x, y, half, sample);
+  if (start.path.seesLights) return start;
+  start.seen = seenLight(in.scene, in.caster, lights_, view_, x, y, sample, start.path.seed);
+  start.path.inPixel = start.seen.onSurface;
+  rays += kSeenRays;
+  if (sample == 0)
+    hasLightAlone_[half][static_cast<size_t>(y * view_.width + x)] =
+        !start.seen.isMixed && !guides_.isAtBorder(x, y);
+  return start;
+}
+
+vec3 PathRepair::wholePath(const Tracing& in, int x, int y, size_t half, uint32_t sample,
+                           uint64_t& rays) {
+  const Start start = startAt(in, x, y, half, sample, rays);
+  if (!start.hasPath()) return start.seen.radiance;
+  return start.seen.radiance + start.seen.surfaces * tracePath(in.scene, in.caster, lights_, view_,
+                                                               x, y, sample, start.path, &rays);
+}
+
+// The first path of each half, for one pixel of each block after the other. Returns the work in
+// rows of paths.
+int PathRepair::traceCells(const FrameInputs& in, const Options& options, int most) {
+  const Tracing tracing{in.scene, in.services.rays()};
+  const int side = coarse_->side();
+  const RepairGuides& blocks = coarse_->blocks();
+  const int end = std::min(row_ + std::max(most * side / 2, 1), blocks.height);
+  std::atomic<uint64_t> rays = 0;
+  tbb::parallel_for(row_, end, [&](int y) {
+    uint64_t traced = 0;
+    for (int x = 0; x < blocks.width; ++x) {
+      const int u = side * x + cell_ % side, v = side * y + cell_ / side;
+      const bool isInside = u < view_.width && v < view_.height;
+      const auto block = static_cast<size_t>(y * blocks.width + x);
+      for (size_t half = 0; half < 2; ++half) {
+        const vec3 radiance = wholePath(tracing, std::min(u, view_.width - 1),
+                                        std::min(v, view_.height - 1), half, 0, traced);
+        if (isInside) whole_.add(half == 0, static_cast<size_t>(v * view_.width + u), radiance);
+        if (!blocks.isAtLight(x, y)) coarse_->add(half == 0, block, radiance);
+      }
+    }
+    rays += traced;
+  });
+  rays_ += rays;
+  const int work = (2 * (end - std::exchange(row_, end)) + side - 1) / side;
+  if (row_ < blocks.height) return work;
+  row_ = 0;
+  ++cell_;
+  coarse_->endPaths();
+  if (cell_ == side * side) {
+    coarse_.reset();
+    whole_.endPath();
+    whole_.endPath();
+    if (isShown(paths(), shown_, options.paths, options.isPreview)) beginFilter();
+  } else if (options.isPreview && isShownCoarsely(cell_, side * side)) {
+    coarse_->beginFilter(live_);
+  }
+  return work;
+}
+
+int PathRepair::filterBlocks(int most) {
+  const int side = coarse_->side();
+  const int rows = coarse_->filter(kFilterRows * side * most);
+  if (!coarse_->isFiltering()) {
+    repaired_ = coarse_->image();
+    isWrong_ = coarse_->error() > kLeastError;
+  }
+  return (rows + kFilterRows * side - 1) / (kFilterRows * side);
+}
+
 int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
                            const MirroredLight* surfaces, int most) {
   const View& view = in.view;
   const int end = std::min(row_ + most, view.height);
-  PathTracerOptions path = options.path;
   const bool isFirst = paths() % 2 == 0;
   const size_t half = isFirst ? 0 : 1;
-  path.seed = seedOfHalf(path.seed, static_cast<uint32_t>(half));
-  path.sureBounces = kSureBounces;
   const auto sample = static_cast<uint32_t>(paths() / 2);
   const bool ends = surfaces != nullptr && whole_.paths >= kWholePaths;
   const bool goesOn = ends && sample % kPathsAWhole == 0;
-  const RayCaster& caster = in.services.rays();
+  const Tracing tracing{in.scene, in.services.rays()};
   std::optional<KnownSurfaces> known;
   if (ends) known.emplace(*surfaces);
   std::atomic<uint64_t> rays = 0;
@@ -121,28 +209,17 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
     uint64_t traced = 0;
     for (int x = 0; x < view.width; ++x) {
       const auto i = static_cast<size_t>(y * view.width + x);
-      PathTracerOptions own = path;
-      own.seesLights = !hasSeenLight(x, y, half, sample);
-      SeenLight seen{.surfaces = 1.0f};
-      if (!own.seesLights) {
-        seen = seenLight(in.scene, caster, lights_, view, x, y, sample, path.seed);
-        own.inPixel = seen.onSurface;
-        traced += kSeenRays;
-        if (sample == 0) hasLightAlone_[half][i] = !seen.isMixed && !guides_.isAtBorder(x, y);
-      }
-      const bool hasPath = seen.surfaces > 0.0f;
       if (!known) {
-        const vec3 rest =
-            hasPath ? tracePath(in.scene, caster, lights_, view, x, y, sample, own, &traced)
-                    : vec3(0.0f);
-        whole_.add(isFirst, i, seen.radiance + seen.surfaces * rest);
+        whole_.add(isFirst, i, wholePath(tracing, x, y, half, sample, traced));
         continue;
       }
-      const EndedPath rest = hasPath ? traceEndedPath(in.scene, caster, lights_, view, x, y, sample,
-                                                      own, *known, goesOn, &traced)
-                                     : EndedPath();
-      ended_.add(isFirst, i, seen.radiance + seen.surfaces * rest.radiance);
-      if (goesOn) missing_.add(isFirst, i, seen.surfaces * rest.missing);
+      const Start start = startAt(tracing, x, y, half, sample, traced);
+      const EndedPath rest = start.hasPath()
+                                 ? traceEndedPath(in.scene, tracing.caster, lights_, view, x, y,
+                                                  sample, start.path, *known, goesOn, &traced)
+                                 : EndedPath();
+      ended_.add(isFirst, i, start.seen.radiance + start.seen.surfaces * rest.radiance);
+      if (goesOn) missing_.add(isFirst, i, start.seen.surfaces * rest.missing);
     }
     rays += traced;
   });

@@ -10,6 +10,7 @@
 
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/path_tracer/path_tracer.h"
+#include "renderer/path_repair/coarse_preview.h"
 #include "renderer/path_repair/repair_guides.h"
 #include "renderer/path_repair/residual_filter.h"
 
@@ -54,11 +55,21 @@ class PathRepair {
   void begin(const FrameInputs& in, const Options& options);
   void takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview, bool endsAtSurfaces);
   bool hasSeenLight(int x, int y, size_t half, uint32_t sample) const;
+  // What all paths of a frame go through.
+  struct Tracing {
+    const RenderScene& scene;
+    const RayCaster& caster;
+  };
+  struct Start;
+  Start startAt(const Tracing& in, int x, int y, size_t half, uint32_t sample, uint64_t& rays);
+  vec3 wholePath(const Tracing& in, int x, int y, size_t half, uint32_t sample, uint64_t& rays);
+  int traceCells(const FrameInputs& in, const Options& options, int most);
   int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
                  int most);
   void beginFilter();
   void dropFilter();
   int filter(int most);
+  int filterBlocks(int most);
   void show(const Image& residual);
   bool hasNoPixels() const { return whole_.first.empty(); }
 
@@ -74,7 +85,10 @@ class PathRepair {
   // What paths see that end nowhere, and that end at known light, and what that light lacks: by
   // fewer paths, because it is the same for many pixels.
   PathSums whole_, ended_, missing_;
-  int row_ = 0;                             // from which on the next paths are missing
+  int row_ = 0;  // from which on the next paths are missing
+  // While the first path of each half is traced: block by block, of one pixel of each. Then null.
+  std::unique_ptr<CoarsePreview> coarse_;
+  int cell_ = 0;                            // which of the pixels of a block
   std::unique_ptr<ResidualFilter> filter_;  // of missing_, then of all_; or of whole_
   std::optional<Image> lacking_;            // what known light lacks, while all_ is filtered
   PathSums all_;                            // of whole_, without lacking_, and of ended_

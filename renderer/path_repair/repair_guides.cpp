@@ -57,4 +57,41 @@ bool RepairGuides::isAtBorder(int x, int y) const {
   return false;
 }
 
+RepairGuides RepairGuides::inBlocks(int side) const {
+  RepairGuides blocks;
+  blocks.width = (width + side - 1) / side;
+  blocks.height = (height + side - 1) / side;
+  for (int y = 0; y < height; y += side)
+    for (int x = 0; x < width; x += side) {
+      const int u = std::min(x + side / 2, width - 1), v = std::min(y + side / 2, height - 1);
+      const auto middle = static_cast<size_t>(v * width + u);
+      vec3 shown = normal[middle];
+      for (int below = y; below < std::min(y + side, height); ++below)
+        for (int right = x; right < std::min(x + side, width); ++right)
+          if (isAtLight(right, below)) shown = vec3(0.0f);
+      blocks.normal.push_back(shown);
+      blocks.position.push_back(position[middle]);
+      blocks.albedo.push_back(albedo[middle]);
+      blocks.footprint.push_back(static_cast<float>(side) * footprint[middle]);
+    }
+  return blocks;
+}
+
+// Of blocks at the sky or a lamp nothing is known: 0, like their paths.
+Image blockMeans(const Image& picture, const RepairGuides& blocks, int side) {
+  Image means(blocks.width, blocks.height);
+  tbb::parallel_for(0, blocks.height, [&](int y) {
+    for (int x = 0; x < blocks.width; ++x) {
+      if (blocks.isAtLight(x, y)) continue;
+      const int right = std::min(side * (x + 1), picture.width),
+                below = std::min(side * (y + 1), picture.height);
+      vec3 sum(0.0f);
+      for (int v = side * y; v < below; ++v)
+        for (int u = side * x; u < right; ++u) sum += picture.at(u, v);
+      means.at(x, y) = sum / static_cast<float>((right - side * x) * (below - side * y));
+    }
+  });
+  return means;
+}
+
 }  // namespace lamplighter

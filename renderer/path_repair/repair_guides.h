@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/backends/gbuffer_view.h"
+#include "renderer/image/image.h"
 #include "renderer/scene/camera.h"
 
 namespace lamplighter {
@@ -24,9 +25,15 @@ struct RepairGuides {
   bool isAtBorder(int x, int y) const;
   // `white`: surfaces are shown white.
   RepairGuides(const GBufferView& gbuffer, const View& view, bool white);
+  // Those of blocks of side × side pixels: of the pixel in the middle, or zero normals if any of
+  // them has one. Blocks at the right and lower border may be smaller.
+  RepairGuides inBlocks(int side) const;
 
  private:
   const vec3& normalAt(int x, int y) const { return normal[static_cast<size_t>(y * width + x)]; }
 };
+
+// The mean of a picture over each block of these guides.
+Image blockMeans(const Image& picture, const RepairGuides& blocks, int side);
 
 }  // namespace lamplighter

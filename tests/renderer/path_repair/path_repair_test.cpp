@@ -145,6 +145,28 @@ TEST_F(Repaired, EditsLeaveFreshBits) {
   expectFresh({}, "fewer paths");
 }
 
+// Large pictures are repaired before each pixel has a path, and the paths are the same.
+TEST_F(Repaired, PreviewsLargePicturesInBlocks) {
+  view.width = 480;
+  view.height = 321;
+  previewRows = 4;
+  previewFrames = 3;
+  settings.set("repair", 2);
+  settings.set("updates", 1);
+  const Image first = step(SceneChanges::all()).radiance->pixels();
+  GiOutput out = step();
+  for (int i = 0; i < 400 && sameBits(out.radiance->pixels(), first); ++i) {
+    settings.set("updates", 0);
+    out = step();
+  }
+  EXPECT_FALSE(sameBits(out.radiance->pixels(), first));
+  EXPECT_EQ(out.stats.of("paths_repaired"), 0);
+  previewRows = 0;
+  settings.set("updates", 4096);
+  const Image picture = rest({}).radiance->pixels();
+  EXPECT_TRUE(sameBits(picture, fresh()));
+}
+
 // Before a picture has settled it is repaired, too, and that leaves no trace.
 TEST_F(Repaired, PreviewsThePictureBeforeItSettles) {
   const Image reference = averageBlocks(test::renderReference(scene, view, 1024, kBounces), 4);

@@ -1,0 +1,94 @@
+#include "renderer/path_repair/coarse_preview.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace lamplighter {
+namespace {
+
+// A picture has about this number of blocks, which are at most kMostSide pixels wide.
+constexpr float kBlocks = 64000.0f;
+constexpr int kMostSide = 4;
+// Blocks of which less than this counts show other surfaces than a pixel.
+constexpr float kLeastWeight = 1e-3f;
+// A pixel that no block around it shows is scaled like these, at most by this factor.
+constexpr float kMostScale = 4.0f;
+
+}  // namespace
+
+int CoarsePreview::sideOf(int width, int height) {
+  const float pixels = static_cast<float>(width) * static_cast<float>(height);
+  return std::clamp(static_cast<int>(std::lround(std::sqrt(pixels / kBlocks))), 1, kMostSide);
+}
+
+CoarsePreview::CoarsePreview(const RepairGuides& pixels, int side)
+    : pixels_(pixels),
+      side_(side),
+      blocks_(pixels.inBlocks(side)),
+      sums_(blocks_.width, blocks_.height) {}
+
+void CoarsePreview::endPaths() {
+  sums_.endPath();
+  sums_.endPath();
+}
+
+void CoarsePreview::beginFilter(const std::shared_ptr<RadianceImage>& live) {
+  live_ = live;
+  means_ = blockMeans(live->pixels(), blocks_, side_);
+  filter_ = std::make_unique<ResidualFilter>(blocks_, means_, sums_);
+}
+
+int CoarsePreview::filter(int mostRows) {
+  const int rows = filter_->step(mostRows);
+  if (!filter_->isDone()) return rows;
+  error_ = filter_->error();
+  const Image residual = filter_->takeResidual();
+  filter_.reset();
+  show(residual);
+  return rows;
+}
+
+void CoarsePreview::show(const Image& residual) {
+  Image out = live_->pixels();
+  tbb::parallel_for(0, pixels_.height, [&](int y) {
+    for (int x = 0; x < pixels_.width; ++x)
+      if (!pixels_.isAtLight(x, y))
+        out.at(x, y) = glm::max(out.at(x, y) + residualAt(residual, x, y), vec3(0.0f));
+  });
+  image_ = std::make_shared<HostImage>(std::move(out));
+}
+
+// From the four blocks around the middle of a pixel, by how far they show the same surface.
+vec3 CoarsePreview::residualAt(const Image& residual, int x, int y) const {
+  const auto i = static_cast<size_t>(y * pixels_.width + x);
+  const vec3 normal = pixels_.normal[i], position = pixels_.position[i];
+  const float tolerance = 1.0f / (pixels_.footprint[i] * static_cast<float>(side_));
+  const float across = (static_cast<float>(x) + 0.5f) / static_cast<float>(side_) - 0.5f,
+              down = (static_cast<float>(y) + 0.5f) / static_cast<float>(side_) - 0.5f;
+  const float left = std::floor(across), top = std::floor(down);
+  vec3 alike(0.0f), all(0.0f), light(0.0f);
+  float weights = 0.0f;
+  for (int k = 0; k < 4; ++k) {
+    const int dx = k % 2, dy = k / 2;
+    const int u = std::clamp(static_cast<int>(left) + dx, 0, blocks_.width - 1),
+              v = std::clamp(static_cast<int>(top) + dy, 0, blocks_.height - 1);
+    if (blocks_.isAtLight(u, v)) continue;
+    const auto b = static_cast<size_t>(v * blocks_.width + u);
+    const float weight = std::abs(1.0f - static_cast<float>(dx) - (across - left)) *
+                         std::abs(1.0f - static_cast<float>(dy) - (down - top));
+    all += weight * residual.pixels[b];
+    light += weight * means_.pixels[b];
+    const float cosine = std::max(glm::dot(normal, blocks_.normal[b]), 0.0f);
+    const float off = glm::dot(normal, blocks_.position[b] - position) * tolerance;
+    const float same = weight * std::pow(cosine, 8.0f) * std::max(1.0f - off * off, 0.0f);
+    alike += same * residual.pixels[b] / blocks_.albedo[b];
+    weights += same;
+  }
+  if (weights > kLeastWeight) return pixels_.albedo[i] * alike / weights;
+  const vec3 scale = all / glm::max(light, vec3(1e-6f));
+  return glm::clamp(scale, vec3(-1.0f), vec3(kMostScale - 1.0f)) * live_->pixels().pixels[i];
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,60 @@
+// A first repair of a picture, by less than a path for each pixel.
+#pragma once
+
+#include <memory>
+
+#include "renderer/backends/radiance_image.h"
+#include "renderer/path_repair/path_sums.h"
+#include "renderer/path_repair/repair_guides.h"
+#include "renderer/path_repair/residual_filter.h"
+
+namespace lamplighter {
+
+// What a picture lacks at first is mostly smooth. So the first paths of some pixels are taken as
+// paths of blocks of k × k pixels, the filter of residuals runs on blocks, and its result is
+// enlarged along surfaces. The sky, lamps and pixels beside them stay as they are.
+class CoarsePreview {
+ public:
+  // The side of a block [pixels]; 1: the picture is small enough to do without.
+  static int sideOf(int width, int height);
+
+  // `pixels` must outlive this object.
+  CoarsePreview(const RepairGuides& pixels, int side);
+  CoarsePreview(const CoarsePreview&) = delete;
+  CoarsePreview& operator=(const CoarsePreview&) = delete;
+
+  int side() const { return side_; }
+  const RepairGuides& blocks() const { return blocks_; }
+  // A path of a block, in each half one after the other. Nothing for blocks at the sky or a lamp.
+  void add(bool isFirst, size_t block, const vec3& radiance) {
+    sums_.add(isFirst, block, radiance);
+  }
+  // After a path of each half of all blocks.
+  void endPaths();
+
+  void beginFilter(const std::shared_ptr<RadianceImage>& live);
+  void dropFilter() { filter_.reset(); }
+  bool isFiltering() const { return filter_ != nullptr; }
+  // At most this number of rows of a step; returns how many. At the end there is another image().
+  int filter(int mostRows);
+  // The repaired picture; null until there is one.
+  const std::shared_ptr<RadianceImage>& image() const { return image_; }
+  // ResidualFilter::error() of image().
+  float error() const { return error_; }
+
+ private:
+  void show(const Image& residual);
+  vec3 residualAt(const Image& residual, int x, int y) const;
+
+  const RepairGuides& pixels_;
+  int side_;
+  RepairGuides blocks_;
+  PathSums sums_;
+  std::shared_ptr<RadianceImage> live_;  // of the filter
+  Image means_;                          // of live_, by block
+  std::unique_ptr<ResidualFilter> filter_;
+  float error_ = 0.0f;
+  std::shared_ptr<RadianceImage> image_;
+};
+
+}  // namespace lamplighter

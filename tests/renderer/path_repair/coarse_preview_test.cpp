@@ -1,0 +1,116 @@
+// A first repair by paths of blocks of pixels.
+#include "renderer/path_repair/coarse_preview.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/base/random.h"
+
+namespace lamplighter {
+namespace {
+
+// Not multiples of the side of a block.
+constexpr int kWidth = 130, kHeight = 95, kSide = 3;
+
+// A wall and a floor that meet in a middle row, with checks of another albedo; in the first columns
+// the sky.
+RepairGuides wallAndFloor() {
+  RepairGuides guides;
+  guides.width = kWidth;
+  guides.height = kHeight;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const int up = kHeight / 2 - y;
+      guides.position.emplace_back(0.01f * static_cast<float>(x),
+                                   0.01f * static_cast<float>(std::max(up, 0)),
+                                   0.01f * static_cast<float>(std::max(-up, 0)));
+      guides.normal.push_back(x < 4 ? vec3(0.0f) : up > 0 ? vec3(0, 0, 1) : vec3(0, 1, 0));
+      guides.albedo.emplace_back((x / 9 + y / 9) % 2 == 0 ? 0.8f : 0.2f);
+      guides.footprint.push_back(0.01f);
+    }
+  return guides;
+}
+
+struct Coarse : testing::Test {
+  const RepairGuides guides = wallAndFloor();
+  Image truth{kWidth, kHeight}, live{kWidth, kHeight};
+  CoarsePreview preview{guides, kSide};
+
+  Coarse() {
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const vec3& albedo = guides.albedo[static_cast<size_t>(y * kWidth + x)];
+        truth.at(x, y) = albedo * (y > kHeight / 2 ? 2.0f : 1.0f);
+        live.at(x, y) = 0.5f * truth.at(x, y);
+      }
+  }
+  // Paths of each block, through its pixels in turn: one in `rare` finds light.
+  const Image& repaired(int paths, uint32_t rare) {
+    const RepairGuides& blocks = preview.blocks();
+    for (int path = 0; path < paths; ++path) {
+      for (int y = 0; y < blocks.height; ++y)
+        for (int x = 0; x < blocks.width; ++x) {
+          if (blocks.isAtLight(x, y)) continue;
+          const auto block = static_cast<size_t>(y * blocks.width + x);
+          const int u = std::min(kSide * x + path % kSide, kWidth - 1),
+                    v = std::min(kSide * y + path / kSide, kHeight - 1);
+          for (const bool isFirst : {true, false}) {
+            const uint32_t bits = hash4(static_cast<uint32_t>(block), static_cast<uint32_t>(path),
+                                        isFirst ? 1 : 2, 3);
+            const float factor = bits % rare == 0 ? static_cast<float>(rare) : 0.0f;
+            preview.add(isFirst, block, factor * truth.at(u, v));
+          }
+        }
+      preview.endPaths();
+    }
+    preview.beginFilter(std::make_shared<HostImage>(live));
+    while (preview.isFiltering()) preview.filter(7);
+    return preview.image()->pixels();
+  }
+  // Root of the mean squared error of surfaces, of their mean.
+  double errorOf(const Image& picture) const {
+    double error = 0.0, light = 0.0, pixels = 0.0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        if (guides.isAtLight(x, y)) continue;
+        const auto d = static_cast<double>(picture.at(x, y).x - truth.at(x, y).x);
+        error += d * d;
+        light += static_cast<double>(truth.at(x, y).x);
+        pixels += 1.0;
+      }
+    return std::sqrt(error / pixels) / (light / pixels);
+  }
+};
+
+TEST_F(Coarse, ShowsWhatIsMissingWithTheDetailOfThePicture) {
+  EXPECT_GT(errorOf(live), 0.5);
+  EXPECT_LT(errorOf(repaired(kSide * kSide, 1)), 0.1);
+  EXPECT_GT(preview.error(), 0.3f);
+}
+
+TEST_F(Coarse, FewNoisyPathsAreEnough) {
+  const double error = errorOf(repaired(1, 8));
+  RecordProperty("error", std::to_string(error));
+  EXPECT_LT(error, 0.7 * errorOf(live));
+}
+
+TEST_F(Coarse, ThePictureBesideTheSkyStaysAsItIs) {
+  const Image& picture = repaired(1, 1);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < 4; ++x) EXPECT_EQ(picture.at(x, y), live.at(x, y));
+}
+
+TEST_F(Coarse, ARightPictureStaysAsItIs) {
+  live = truth;
+  EXPECT_LT(errorOf(repaired(1, 2)), 0.1);
+  EXPECT_LT(preview.error(), 0.05f);
+}
+
+TEST(CoarsePreviewTest, LargePicturesHaveLargerBlocks) {
+  EXPECT_EQ(CoarsePreview::sideOf(320, 240), 1);
+  EXPECT_EQ(CoarsePreview::sideOf(512, 384), 2);
+  EXPECT_EQ(CoarsePreview::sideOf(1280, 720), 4);
+  EXPECT_EQ(CoarsePreview::sideOf(3840, 2160), 4);
+}
+
+}  // namespace
+}  // namespace lamplighter
