@@ -73,7 +73,8 @@ std::vector<ActionChoice> slots(const Session& s) {
   std::vector<ActionChoice> out;
   for (int slot = 1; slot <= kCameraBookmarks; ++slot) {
     const std::string number = std::to_string(slot);
-    out.push_back({number, "Bookmark " + number + (find(s, slot) != nullptr ? " (anew)" : "")});
+    out.push_back(
+        {number, "Bookmark " + number + (find(s, slot) != nullptr ? " (overwrite)" : "")});
   }
   return out;
 }
@@ -128,7 +129,7 @@ void addCameraActions(ActionRegistry& r) {
   camera.choices = cameras;
   r.add(std::move(camera));
   r.add({"camera.move", "Move the camera", "RIGHT UP FORWARD",
-         "Moves the camera by steps of a quarter second's flight.", "",
+         "Moves the camera in steps. A step is the distance flown in a quarter of a second.", "",
          [](Session& s, const Arguments& a) {
            const vec3 way = glm::clamp(vectorOf(a, 0), vec3(-1e4f), vec3(1e4f));
            View view = s.view();

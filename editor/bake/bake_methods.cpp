@@ -72,7 +72,7 @@ BakeLightOptions gatherOptions(Settings settings) {
 const std::vector<BakeMethodInfo>& bakeMethods() {
   static const std::vector<BakeMethodInfo> all{
       {"many_lights", "its settled light samples, with exact shadows", manyLightsOptions},
-      {"multi_mesh", "smooth bounced light from elements of surface", meshOptions},
+      {"multi_mesh", "smooth bounced light from surface elements", meshOptions},
       {"surface_shadow_maps", "bounced light gathered at each texel", gatherOptions},
       {kReferenceMethod, "path tracing", referenceOptions}};
   return all;

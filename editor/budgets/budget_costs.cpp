@@ -44,7 +44,7 @@ std::string costOfFrames(const Timeline& timeline) {
     longest = std::max(longest, f.seconds());
     sum += f.seconds();
   }
-  return fmt::format("{:.3g} ms a frame, {:.3g} ms at most",
+  return fmt::format("{:.3g} ms per frame, {:.3g} ms at most",
                      1e3 * sum / static_cast<double>(timeline.frames().size()), 1e3 * longest);
 }
 

@@ -19,7 +19,7 @@ namespace lamplighter::cli {
 
 namespace {
 
-// A number in a range. CLI::Range alone takes "nan" for one.
+// A number in a range. CLI::Range alone accepts "nan".
 CLI::Validator within(double low, double high) {
   const CLI::Range range(low, high);
   return {[range](std::string& text) {
@@ -37,7 +37,7 @@ void addBackend(CLI::App& app, std::string& backend) {
 }
 
 void addThreads(CLI::App& app, int& threads) {
-  app.add_option("--threads", threads, "At most so many threads; 0: all cores")
+  app.add_option("--threads", threads, "Maximum number of threads; 0: all cores")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
 }
@@ -65,11 +65,12 @@ void infoFlags(CLI::App& sub, Run& run, const Frontend&) {
 
 void addMethodFlags(CLI::App& sub, MethodFlags& o, const char* samples) {
   sub.add_option("--vpls", o.vpls, "Light samples in all")->type_name("N");
-  sub.add_option("--direct-share", o.directShare, "Share of them on the lights themselves, 0 to 1")
+  sub.add_option("--direct-share", o.directShare,
+                 "Share of the light samples that lie on the lights, 0 to 1")
       ->type_name("F");
   sub.add_option("--bounces", o.bounces, "Indirect bounces; 0 is direct light only")
       ->type_name("N");
-  sub.add_option("--seed", o.seed, "Another set of random numbers")->type_name("N");
+  sub.add_option("--seed", o.seed, "Seed of the random numbers")->type_name("N");
   sub.add_option("--spp", o.spp, samples)->type_name("N");
   sub.add_option("--set", o.assignments, "name=value of any parameter of the method; repeatable")
       ->type_name("NAME=VALUE")
@@ -96,14 +97,15 @@ void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->required();
   addMethodName(sub, o->method);
   addView(sub, o->camera, o->size);
-  addMethodFlags(sub, *o, "Samples a pixel");
+  addMethodFlags(sub, *o, "Samples per pixel");
   addBackend(sub, o->backend);
-  sub.add_option("--sky", o->sky, "Another sky; radiance in W/(m2 sr), or a picture")
+  sub.add_option("--sky", o->sky, "Replaces the sky: radiance in W/(m2 sr), or a picture")
       ->type_name(kSkyUsage);
-  sub.add_option("--sky-rotation", o->skyRotation, "Turns the sky's picture about the vertical")
+  sub.add_option("--sky-rotation", o->skyRotation,
+                 "Rotation of the picture of the sky about the vertical axis")
       ->type_name("DEGREES")
       ->check(within(-1e6, 1e6));
-  sub.add_option("--sky-scale", o->skyScale, "Multiplies the sky's picture")
+  sub.add_option("--sky-scale", o->skyScale, "Factor for the radiance of the picture of the sky")
       ->type_name("FACTOR")
       ->check(within(0.0, 1e9));
   sub.add_option("--exposure", o->exposure, "EV for PNG, or auto")
@@ -113,11 +115,12 @@ void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   for (const DebugViewInfo& v : debugViews())
     views += (views.empty() ? "" : ", ") + std::string(v.name);
   sub.add_option("--view", o->view, views)->type_name("NAME")->capture_default_str();
-  sub.add_option("--view-vpl", o->viewVpl, "Light sample that --view occlusion is about, from 0")
+  sub.add_option("--view-vpl", o->viewVpl,
+                 "Index of the light sample shown by --view occlusion, from 0")
       ->type_name("INDEX")
       ->check(CLI::NonNegativeNumber);
   sub.add_flag("--marks", o->marks, "Mark the light samples, as the viewport does");
-  sub.add_flag("--legend", o->legend, "Say in a strip below what the colours of the view mean");
+  sub.add_flag("--legend", o->legend, "Add a legend of the colours of the view below the picture");
   addThreads(sub, o->threads);
   sub.add_option("--stats", o->stats, "JSON file for timings and counts")->type_name("FILE");
   sub.footer(
@@ -141,12 +144,13 @@ void compareFlags(CLI::App& sub, Run& run, const Frontend&) {
   auto o = std::make_shared<CompareOptions>();
   sub.add_option("A", o->a, "Image")->type_name("FILE")->required();
   sub.add_option("B", o->b, "Image of the same size, the reference")->type_name("FILE")->required();
-  sub.add_option("--mask", o->mask, "Only pixels over 0.5 in this image count")->type_name("FILE");
+  sub.add_option("--mask", o->mask, "Compare only pixels that are above 0.5 in this image")
+      ->type_name("FILE");
   sub.add_option("--block", o->block, "Compares the means of N x N pixels [1]")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
-  sub.add_option("--heatmap", o->heatmap, "PNG file for where they differ")->type_name("FILE");
-  sub.add_option("--max-relrmse", o->maxRelRmse, "A check: exit code 1 when relRMSE is larger")
+  sub.add_option("--heatmap", o->heatmap, "PNG file of the differences")->type_name("FILE");
+  sub.add_option("--max-relrmse", o->maxRelRmse, "Exit code 1 if relRMSE is larger (for tests)")
       ->type_name("X")
       ->check(CLI::NonNegativeNumber);
   sub.add_flag("--json", o->json, "As JSON");
@@ -160,19 +164,20 @@ void convergeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   auto o = std::make_shared<ConvergeOptions>();
   sub.add_option("FROM", o->from, ".gltf or .glb file")->type_name("FILE")->required();
   sub.add_option("TO", o->to,
-                 "Another state of it, whose places and lights it gets when it has settled [none: "
-                 "opening is measured]")
+                 "Level with the edited transforms and lights, applied when FROM is settled [none: "
+                 "measures opening]")
       ->type_name("FILE");
   sub.add_option("--against", o->against, "The reference: a picture of the settled state")
       ->type_name("FILE")
       ->required();
-  sub.add_option("--mask", o->mask, "Only pixels over 0.5 in this image count")->type_name("FILE");
+  sub.add_option("--mask", o->mask, "Compare only pixels that are above 0.5 in this image")
+      ->type_name("FILE");
   sub.add_option("--block", o->block, "Compares the means of N x N pixels [1]")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   addMethodName(sub, o->method);
   addView(sub, o->camera, o->size);
-  addMethodFlags(sub, *o, "Samples a pixel");
+  addMethodFlags(sub, *o, "Samples per pixel");
   sub.add_option("--seconds", o->seconds,
                  "Measure for this time, with refinement at rest [until the picture is settled]")
       ->type_name("S")
@@ -190,8 +195,9 @@ void tilesFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   auto o = std::make_shared<TilesOptions>();
   sub.add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
   sub.add_option("-o,--output", o->output, "PNG file")->type_name("FILE")->required();
-  sub.add_option("--side", o->sides,
-                 "A method, with parameters after commas; repeatable [all methods that show light]")
+  sub.add_option(
+         "--side", o->sides,
+         "A method, followed by parameters after commas; repeatable [all methods that show light]")
       ->type_name("METHOD[,NAME=VALUE]...")
       ->allow_extra_args(false);
   addView(sub, o->camera, o->size);
@@ -209,9 +215,9 @@ void tilesFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   addBackend(sub, o->backend);
   addThreads(sub, o->threads);
   sub.footer(
-      "Errors are against the tile of the reference, in blocks of 4 x 4 pixels\nExample: "
-      "lamplighter tiles level.glb -o tiles.png --side many_lights --side reference,"
-      "samples_per_pixel=256");
+      "Errors are relative to the tile of the reference, in blocks of 4 x 4 pixels\nExample: "
+      "lamplighter tiles level.glb -o tiles.png --side many_lights --side "
+      "reference,samples_per_pixel=256");
   sub.callback([=, &run, &frontend] { run = [=, &frontend] { return tiles(*o, frontend); }; });
 }
 
@@ -226,7 +232,7 @@ void tonemapFlags(CLI::App& sub, Run& run, const Frontend&) {
 
 void scriptFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   auto o = std::make_shared<ScriptOptions>();
-  sub.add_option("FILE", o->script, "Actions, one a line; # begins a comment")
+  sub.add_option("FILE", o->script, "File of actions, one per line; # begins a comment")
       ->type_name("FILE")
       ->required();
   sub.add_option("SCENE", o->scene, ".gltf or .glb file [none: the script opens one]")
@@ -236,40 +242,40 @@ void scriptFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->capture_default_str();
   addBackend(sub, o->backend);
   addThreads(sub, o->threads);
-  sub.add_option("--journal", o->journal, "Keep every edit in this folder until the script ends")
+  sub.add_option("--journal", o->journal, "Store every edit in this folder until the script ends")
       ->type_name("FOLDER");
   sub.footer("Example: lamplighter script relight.txt level.glb");
   sub.callback([=, &run, &frontend] { run = [=, &frontend] { return script(*o, frontend); }; });
 }
 
 void probeFlags(CLI::App& sub, BakeOptions& o) {
-  CLI::Option* probes =
-      sub.add_flag("--probes", o.probes,
-                   "Also write light probes for what moves, found by the reference with the "
-                   "bounces and the seed of the method")
-          ->excludes("--shard");
+  CLI::Option* probes = sub.add_flag("--probes", o.probes,
+                                     "Also write light probes for moving objects, computed by the "
+                                     "reference with the bounces and the seed of the method")
+                            ->excludes("--shard");
   CLI::Option* noMaps =
-      sub.add_flag("--no-maps", o.noMaps, "Write light probes alone")->needs(probes);
+      sub.add_flag("--no-maps", o.noMaps, "Write only light probes, no light maps")->needs(probes);
   for (const char* ofMaps :
        {"--density", "--page", "--merge", "--keep-parts", "--visibility", "--vertex-colours"})
     noMaps->excludes(ofMaps);
-  sub.add_option("--probe-spacing", o.probeGrid.spacing, "Between neighbouring probes (m)")
+  sub.add_option("--probe-spacing", o.probeGrid.spacing, "Distance between neighbouring probes (m)")
       ->type_name("X")
       ->check(within(0.01, 10000.0))
       ->needs(probes)
       ->capture_default_str();
-  sub.add_option("--probe-padding", o.probeGrid.padding, "Least distance of probes to surfaces (m)")
+  sub.add_option("--probe-padding", o.probeGrid.padding,
+                 "Minimum distance between probes and surfaces (m)")
       ->type_name("X")
       ->check(within(0.0, 1000.0))
       ->needs(probes)
       ->capture_default_str();
   sub.add_option("--most-probes", o.probeGrid.most,
-                 "Probes are further apart where there would be more nodes of their grid")
+                 "Maximum number of grid nodes; the spacing grows if needed")
       ->type_name("N")
       ->check(CLI::Range(8, 1048576))
       ->needs(probes)
       ->capture_default_str();
-  sub.add_option("--probe-spp", o.probeSamples, "Paths a probe")
+  sub.add_option("--probe-spp", o.probeSamples, "Paths per probe")
       ->type_name("N")
       ->check(CLI::Range(1, 1048576))
       ->needs(probes)
@@ -279,7 +285,8 @@ void probeFlags(CLI::App& sub, BakeOptions& o) {
 void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   auto o = std::make_shared<BakeOptions>();
   sub.add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
-  sub.add_option("-o,--output", o->output, "Folder for the pages and the copy; made if need be")
+  sub.add_option("-o,--output", o->output,
+                 "Output folder for the pages and the copy; created if it does not exist")
       ->type_name("FOLDER")
       ->required();
   std::string ways;
@@ -291,7 +298,7 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_option("--method", o->method, ways)
       ->check(CLI::IsMember(names))
       ->capture_default_str();
-  sub.add_option("--density", o->atlas.texelsPerMetre, "Texels a metre")
+  sub.add_option("--density", o->atlas.texelsPerMetre, "Texels per metre")
       ->type_name("X")
       ->check(within(0.01, 10000.0))
       ->capture_default_str();
@@ -299,15 +306,16 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->type_name("N")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
-  addMethodFlags(sub, *o, "Paths a texel, of the reference");
-  sub.add_option("--shard", o->shard,
-                 "Find the i-th of n parts only; run all on machines that share the folder")
+  addMethodFlags(sub, *o, "Paths per texel (method reference)");
+  sub.add_option(
+         "--shard", o->shard,
+         "Compute only the i-th of n parts; run the parts on machines that share the folder")
       ->type_name("i/n");
-  sub.add_flag("--merge", o->merge, "Put the pages together from parts that are all there")
+  sub.add_flag("--merge", o->merge, "Assemble the pages; all parts must exist")
       ->excludes("--shard");
-  sub.add_flag("--keep-parts", o->keepParts, "Leave the parts when the pages are there");
+  sub.add_flag("--keep-parts", o->keepParts, "Keep the parts after the pages are written");
   sub.add_flag("--visibility", o->visibility,
-               "Also write what the surface sees, for other programs: "
+               "Also write the visibility from the surface, for other programs: "
                "docs/reference/visibility.md")
       ->excludes("--shard");
   CLI::Option* colours = sub.add_flag(
@@ -318,13 +326,14 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
        {"--density", "--page", "--shard", "--merge", "--keep-parts", "--visibility"})
     colours->excludes(ofMaps);
   sub.add_option("--contrast", o->vertices.contrast,
-                 "Edges are divided where interpolated vertex colours are off by more than this "
-                 "share")
+                 "Edges are divided where interpolated vertex colours have a larger relative error "
+                 "than this")
       ->type_name("X")
       ->check(within(0.001, 10.0))
       ->needs(colours)
       ->capture_default_str();
-  sub.add_option("--shortest-edge", o->vertices.shortestEdge, "Shorter edges are not made (m)")
+  sub.add_option("--shortest-edge", o->vertices.shortestEdge,
+                 "Shortest edge created by division (m)")
       ->type_name("X")
       ->check(within(0.001, 1000.0))
       ->needs(colours)
@@ -338,8 +347,8 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   probeFlags(sub, *o);
   addThreads(sub, o->threads);
   sub.footer(
-      "Ctrl+C stops; the same command goes on from there.\n"
-      "Example: lamplighter bake level.glb -o baked --method reference --spp 256");
+      "Ctrl+C stops; the same command continues from there.\nExample: lamplighter bake level.glb "
+      "-o baked --method reference --spp 256");
   sub.callback([=, &run, &frontend] { run = [=, &frontend] { return bake(*o, frontend); }; });
 }
 
@@ -347,18 +356,17 @@ void replayFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   auto o = std::make_shared<ReplayOptions>();
   sub.add_option("FILE", o->recording, "Recording (.jsonl)")->type_name("FILE")->required();
   sub.add_flag("--headless", o->headless, "Without a window");
-  sub.add_option("-o,--output", o->outputFolder, "Folder for the pictures of its checkpoints")
+  sub.add_option("-o,--output", o->outputFolder, "Folder for the pictures of the checkpoints")
       ->type_name("FOLDER");
-  sub.add_flag("--check", o->check,
-               "Compare with the baselines; exit code 1 when something differs");
+  sub.add_flag("--check", o->check, "Compare with the baselines; exit code 1 if they differ");
   sub.add_flag("--update-baselines", o->updateBaselines, "Overwrite the baselines");
   sub.add_flag("--frame-clock", o->frameClock,
-               "Times count frames, so that pictures of the window are the same each time; frames "
+               "Time is counted in frames, so that pictures of the window are reproducible; frames "
                "between checkpoints are not rendered");
   sub.add_option("--against", o->against,
-                 "Plays it once more this way and compares every checkpoint with the first time: "
-                 "documents and pictures exactly, or within the recording's tolerance on another "
-                 "backend; repeatable")
+                 "Replays again with this setting and compares every checkpoint with the first "
+                 "run: documents and pictures exactly, or within the recording's tolerance on "
+                 "another backend; repeatable")
       ->type_name("threads=N|backend=NAME")
       ->needs("--check")
       ->check(CLI::Validator(
@@ -368,9 +376,9 @@ void replayFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
                        : "give threads=N, backend=cpu or backend=gl";
           },
           ""));
-  sub.add_option("--report", o->report, "JSON file for its checks and edit latencies")
+  sub.add_option("--report", o->report, "JSON file for the checks and edit latencies")
       ->type_name("FILE");
-  sub.add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");
+  sub.add_option("--method", o->method, "Method that replaces the recorded one")->type_name("NAME");
   sub.add_option("--set", o->assignments,
                  "name=value of a parameter that the recording does not set; repeatable")
       ->type_name("NAME=VALUE")
@@ -386,7 +394,7 @@ void manualFlags(CLI::App& sub, Run& run, const Frontend&) {
     bool man = false, markdown = true;
   };
   auto o = std::make_shared<Options>();
-  sub.add_flag("--man", o->man, "As a page for man");
+  sub.add_flag("--man", o->man, "As a man page");
   sub.add_flag("--markdown", o->markdown,
                "As the tables of docs/reference/flags.md, which is the default");
   sub.footer("Example: lamplighter manual --man | man -l -");
@@ -408,17 +416,17 @@ struct Subcommand {
 constexpr Subcommand kSubcommands[] = {
     {"info", "Counts, extents, lights, cameras and warnings of a scene", infoFlags},
     {"render", "Render a scene until it is settled", renderFlags},
-    {"methods", "Every method, its paper, its parameters", methodsFlags},
-    {"actions", "Every action of the editor, its arguments and key", actionsFlags},
-    {"settings", "Every setting of the editor, its range and default", settingsFlags},
-    {"compare", "How far picture A is from the reference B", compareFlags},
+    {"methods", "Every method with its paper and its parameters", methodsFlags},
+    {"actions", "Every action of the editor with its arguments and key", actionsFlags},
+    {"settings", "Every setting of the editor with its range and default", settingsFlags},
+    {"compare", "The error of picture A against the reference B", compareFlags},
     {"converge", "How fast the live picture approaches a reference after an edit", convergeFlags},
-    {"tiles", "Pictures of several methods side by side, with figures", tilesFlags},
-    {"tonemap", "A radiance image as the editor would show it", tonemapFlags},
+    {"tiles", "Pictures of several methods side by side, with measurements", tilesFlags},
+    {"tonemap", "Tone-map a radiance image as in the editor", tonemapFlags},
     {"replay", "Play a recording of input", replayFlags},
     {"script", "Run a file of actions on a scene, without a window", scriptFlags},
-    {"bake", "Light maps of a scene, and a copy that carries their UVs", bakeFlags},
-    {"manual", "This command line, every flag of it", manualFlags},
+    {"bake", "Light maps of a scene, and a copy of the scene with their UVs", bakeFlags},
+    {"manual", "All subcommands and flags", manualFlags},
 };
 
 }  // namespace
@@ -430,7 +438,7 @@ void declareFlags(CLI::App& app, std::span<const char* const> words, EditorOptio
   app.add_option("--record", editor.record, "Record all input to this file")->type_name("FILE");
   addBackend(app, editor.backend);
   app.add_option("--journal", editor.journal,
-                 "Keep every edit in this folder until it is saved [the user's state folder]")
+                 "Store every edit in this folder until it is saved [the user's state folder]")
       ->type_name("FOLDER");
   const auto isNamed = [&](std::string_view name) {
     return std::find(words.begin(), words.end(), name) != words.end();

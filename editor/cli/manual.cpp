@@ -85,8 +85,7 @@ std::string manPage(const CLI::App& app) {
   out +=
       ".SH DESCRIPTION\nOpens a glTF level, places and tunes lights, and shows soft shadows and "
       "several bounces of indirect light while they are dragged. Without a command the editor "
-      "opens "
-      "a window; the commands need none.\n.SH OPTIONS\n";
+      "opens a window; the commands need none.\n.SH OPTIONS\n";
   addOptions(out, app);
   out += ".SH COMMANDS\n";
   for (const CLI::App* sub : commandsOf(app)) {

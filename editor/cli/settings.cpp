@@ -28,12 +28,11 @@ void printSettingsMarkdown() {
   std::cout
       << "# Settings\n\nWritten by `lamplighter settings --markdown`. The panel *Settings* "
          "(Ctrl+Comma) and the actions `settings.set NAME=VALUE` and `settings.reset [NAME]` "
-         "change "
-         "them.\n\nThe editor's window reads `settings.json` and `keys.json` in "
+         "change them.\n\nThe editor's window reads `settings.json` and `keys.json` in "
          "`$XDG_CONFIG_HOME/lamplighter` (`~/.config/lamplighter`) when it starts, and writes the "
          "first when something changed: a whole new file that takes the old one's place. "
-         "`--record`, `replay`, `script` and the other subcommands read neither. What is broken is "
-         "told in one line each and has its default; the broken file is kept as "
+         "`--record`, `replay`, `script` and the other subcommands read neither. Invalid settings "
+         "are reported, one line each, and get their default; the invalid file is kept as "
          "`settings.json.broken-1`, `-2` and so on. The file also holds the recent files, the "
          "favourite folders of the file dialog and the folder of the asset browser.\n";
   for (const PreferenceSection& section : preferenceSections()) {
@@ -48,10 +47,10 @@ void printSettingsMarkdown() {
       << "\n## keys.json\n\nAn object of action texts ([actions.md](actions.md), with their "
          "arguments) and keys, over those of the setting `keys`:\n\n    {\"tool.move\": \"G\", "
          "\"light.add disk\": \"Ctrl+Shift+D\", \"view.vpls\": \"\", \"edit.redo\": "
-         "\"Ctrl+Y, Ctrl+Shift+Z\"}\n\nAn empty text takes the keys away. A key that belonged to "
-         "another action is taken from it. Unknown actions and keys, and keys that two entries "
-         "want, are told in a line each, in a toast and in the log (Shift+N). The file is never "
-         "written.\n";
+         "\"Ctrl+Y, Ctrl+Shift+Z\"}\n\nAn empty text removes the keys. A key that belonged to "
+         "another action is removed from that action. Unknown actions and keys, and keys bound "
+         "twice are reported, one line each, in a toast and in the log (Shift+N). The file is "
+         "never written.\n";
 }
 
 void printSettingsText() {

@@ -1,4 +1,4 @@
-// Between preferences and what the session goes by.
+// Applies the preferences of the user to a session.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@ namespace lamplighter {
 
 class Session;
 
-// Keys, units, tone mapper. Problems of the keys, one line each.
+// Applies keys, units and the tone mapper. Appends problems of the keys to `problems`, one line
+// each.
 void applyPreferences(Session& session, std::vector<std::string>& problems);
 // The budgets and qualities that the program starts with, as no step of the history.
 void applyPreset(Session& session);

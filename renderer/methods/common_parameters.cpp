@@ -6,7 +6,11 @@ using enum ParameterGroup;
 
 const ParameterTable<SeedParameters>& seedParameters() {
   static const ParameterTable<SeedParameters> table{
-      &SeedParameters::seed, "seed", "Seed", "", "Selects another set of random numbers.",
+      &SeedParameters::seed,
+      "seed",
+      "Seed",
+      "",
+      "Seed of the random numbers. Another value: different noise, at the same cost.",
       {0, 1000000}};
   return table;
 }
@@ -17,7 +21,8 @@ const ParameterTable<PathParameters>& pathParameters() {
        "bounces",
        "Bounces",
        "",
-       "Number of indirect bounces. 0: direct light only.",
+       "Number of indirect bounces. More: brighter dark areas; each bounce costs additional work. "
+       "0: direct light only.",
        {0, 64},
        lightSamples},
       seedParameters().inGroup(lightSamples)};
@@ -37,7 +42,7 @@ const ParameterTable<SurfaceParameters>& surfaceParameters() {
        "Least roughness",
        "",
        "Minimum roughness for reflections. Smoother surfaces are shown with this roughness; a "
-       "mirror would show light samples as dots.",
+       "mirror would show light samples as dots. No cost in time.",
        {0.05, 1.0},
        picture}};
   return table;
@@ -48,20 +53,20 @@ const ParameterTable<SampleParameters>& sampleParameters() {
   static const ParameterTable<P> table{
       {&P::samplesPerPixel,
        "samples_per_pixel",
-       "Paths a pixel",
+       "Paths per pixel",
        "",
-       "Paths traced per pixel until the picture is settled.",
+       "Paths traced per pixel until the picture is settled. The total time grows in proportion.",
        {1, 1048576, kLogarithmic},
        budgets,
        "More: less noise in the settled picture; four times as many halve it."},
       {&P::samplesPerFrame,
        "samples_per_frame",
-       "Paths a frame",
+       "Paths per frame",
        "",
        "Paths traced per pixel in one frame. Higher: longer frames, fewer of them.",
        {1, 4096, kLogarithmic},
        budgets,
-       "More: less noise in fewer frames, which take longer each."}};
+       "More: less noise in fewer frames, each of which takes longer."}};
   return table;
 }
 
@@ -70,13 +75,13 @@ const ParameterTable<FrameBudgetParameters>& frameBudgetParameters() {
   static const ParameterTable<P> table{
       {&P::updates,
        kUpdates,
-       "Updates a frame",
+       "Updates per frame",
        "",
        "Maximum number of light samples that change per frame. Lower: shorter frames, but an edit "
        "takes longer to arrive.",
        {1, 65536, kLogarithmic},
        budgets,
-       "More: an edit is seen whole in fewer frames. Fewer: each frame is shorter."},
+       "More: an edit is complete in fewer frames. Fewer: each frame is shorter."},
       {&P::frameTime,
        "frame_time",
        "Frame time",
@@ -86,8 +91,7 @@ const ParameterTable<FrameBudgetParameters>& frameBudgetParameters() {
        "without a window always use counts.",
        {0.0, 1000.0},
        budgets,
-       "Longer: an edit is seen whole in fewer frames. Shorter: the hand is followed more "
-       "smoothly."}};
+       "Longer: an edit is complete in fewer frames. Shorter: drags are shown more smoothly."}};
   return table;
 }
 

@@ -31,10 +31,10 @@ const StatisticTable<GiStats>& commonStatistics() {
                                                .inTimeline = true}},
                                              {&GiStats::samplesPerPixel,
                                               {.name = "samples_per_pixel",
-                                               .label = "Samples a pixel",
+                                               .label = "Samples per pixel",
                                                .unit = "samples",
                                                .meaning = "Samples of each pixel so far.",
-                                               .status = "{} samples a pixel",
+                                               .status = "{} samples per pixel",
                                                .shownFrom = 2.0,
                                                .budget = "samples_per_pixel",
                                                .cost = "{} so far"}}};

@@ -9,16 +9,18 @@ const ParameterTable<StoredDepthParameters>& storedDepthParameters() {
        "texel",
        "Texel",
        "m",
-       "Side of the texels that keep bounced light and what they see. Texels are larger where "
-       "depth_memory is short.",
+       "Side of the texels that store bounced light and its links. Half the side: four times the "
+       "texels, more memory and time. Texels are larger if depth_memory is too small.",
        {0.02, 10.0, kLogarithmic},
        ParameterGroup::quality},
       {&P::texelOrder,
        "texel_order",
        "Order of texels",
        "",
-       "Along which texels depths are compressed. zigzag: row by row. spiral: along the border of "
-       "a chart, then inwards. greedy: always the nearest texel.",
+       "Order of the texels along which depths are compressed. zigzag: row by row. spiral: along "
+       "the border of a chart, then inwards. greedy: always the nearest texel; its time grows with "
+       "the square of the number of texels of an object. The orders differ by about a tenth in the "
+       "memory of depths.",
        {{"zigzag", TexelOrder::zigzag},
         {"spiral", TexelOrder::spiral},
         {"greedy", TexelOrder::greedy}}},
@@ -26,35 +28,41 @@ const ParameterTable<StoredDepthParameters>& storedDepthParameters() {
        "depth_map",
        "Depth map",
        "",
-       "How the directions around a texel are divided. cube: six faces. octahedral: one square.",
+       "Mapping of the directions around a texel to pixels. cube: six squares. octahedral: one "
+       "square. At the same depth_resolution the cube has six times the pixels, rays and memory. "
+       "No effect with link_visibility=rays.",
        {{"cube", DepthMapKind::cube}, {"octahedral", DepthMapKind::octahedral}}},
       {&P::depthResolution,
        "depth_resolution",
        "Depth resolution",
        "pixels",
-       "Side of a depth map, or of a face of the cube.",
+       "Side of a depth map, or of a face of the cube. Larger: more exact visibility; twice the "
+       "side costs four times the rays and about four times the memory of depths. No effect with "
+       "link_visibility=rays.",
        {8, 128, kLogarithmic}},
       {&P::linkVisibility,
        "link_visibility",
        "Visibility",
        "",
-       "How texels find out what they see when links are made. rays: exactly. stored: by their "
-       "depths, as paper 3 has it; they are as coarse as the pixels of depth maps.",
+       "How the visibility of links is tested. rays: exact, up to four rays for each link. stored: "
+       "by the stored depths of texels, as in paper 3; as coarse as the pixels of depth maps, "
+       "needs memory for depths and more time to prepare, and after an object has moved all depths "
+       "and links are computed again.",
        {{"stored", TexelVisibility::stored}, {"rays", TexelVisibility::rays}}},
       {&P::linkError,
        "link_error",
        "Link error",
        "%",
-       "Surfaces that may fill more of the view of a texel are divided. Less: more links, more "
-       "exact bounced light.",
+       "Largest share of the view of a texel that one link may cover. Smaller: more links, more "
+       "exact bounced light, more memory.",
        {0.02, 10.0, kLogarithmic},
        ParameterGroup::quality,
-       "Less: more exact bounced light."},
+       "Smaller: more exact bounced light."},
       {&P::depthMemory,
        "depth_memory",
        "Depth memory",
        "MiB",
-       "Memory for depths and links, about. If it is short, texels are larger.",
+       "Approximate memory for depths and links. If it is too small, texels are larger.",
        {1, 65536, kLogarithmic},
        ParameterGroup::budgets,
        "More: smaller texels on large levels, down to texel."}};
@@ -81,7 +89,7 @@ const StatisticTable<StoredDepthStats>& storedDepthStatistics() {
        {.name = "surface_texels",
         .label = "Texels",
         .unit = "texels",
-        .meaning = "Texels of surface that keep bounced light."}},
+        .meaning = "Surface texels that store bounced light."}},
       {&S::texelSide,
        {.name = "texel_side",
         .label = "Side of texels",
@@ -96,28 +104,28 @@ const StatisticTable<StoredDepthStats>& storedDepthStatistics() {
         .meaning = "Segments of equal depths of consecutive texels."}},
       {&S::ratio,
        {.name = "depth_ratio",
-        .label = "Pixels a segment",
+        .label = "Pixels per segment",
         .unit = "pixels",
-        .meaning = "Pixels of depth maps for which a segment stands: how well depths are "
-                   "compressed."}},
+        .meaning =
+            "Pixels of depth maps that one segment represents: the compression ratio of depths."}},
       {&S::links,
        {.name = "links",
         .label = "Links",
         .unit = "links",
-        .meaning = "Links by which texels receive light from surfaces."}},
+        .meaning = "Links along which texels receive light from surfaces."}},
       {&S::texelRays,
        {.name = "texel_rays",
         .label = "Rays of texels",
         .unit = "rays",
-        .meaning = "Rays for depths and for the direct light of texels that were traced in this "
-                   "frame.",
+        .meaning =
+            "Rays that were traced in this frame for depths, links and the direct light of texels.",
         .kind = StatisticKind::work}},
       {&S::progress,
        {.name = "prepared",
         .label = "Prepared",
         .unit = "%",
-        .meaning = "Share of the depths and links of texels that is found. Until all are, bounced "
-                   "light is missing, or that of before.",
+        .meaning = "Share of the depths and links of texels that is computed. Below 100%, bounced "
+                   "light is missing or outdated.",
         .kind = StatisticKind::pending,
         .status = "finding links {}",
         .shownFrom = 0.0,

@@ -9,42 +9,43 @@ const ParameterTable<SurfaceLightParameters>& surfaceLightParameters() {
        "coarse_edge",
        "Coarse edge",
        "m",
-       "Longest edge of the elements of surface that exchange bounced light. Smaller: finer "
-       "bounced "
-       "shadows, more rays after an edit. Elements are larger where link_memory is short.",
+       "Longest edge of the surface elements that exchange bounced light. Smaller: finer bounced "
+       "shadows, more rays after an edit. Elements are larger if link_memory is too small.",
        {0.02, 10.0, kLogarithmic},
        ParameterGroup::quality},
       {&P::gatherRays,
        "gather_rays",
        "Gather rays",
        "",
-       "Rays from each corner of an element that find the bounced light that arrives there. At "
-       "least "
-       "32 where link_memory is short.",
+       "Rays from each corner of an element that find the bounced light that arrives there. More: "
+       "less noise; rays and memory grow in proportion. At least 32 are used even if link_memory "
+       "is too small.",
        {16, 4096, kLogarithmic},
        ParameterGroup::quality},
       {&P::mask,
        "mask",
        "Mask",
        "places",
-       "Side of the mask by which the visible part of a flat light is found for direct light that "
-       "bounces: exact soft shadows instead of one ray for each corner of an element, with more "
-       "work. 0: rays.",
+       "Side of the bit mask that finds the visible part of a flat light, for direct light that "
+       "bounces: exact soft shadows instead of one ray for each corner of an element. Costs more "
+       "time after an edit. 0: rays.",
        {{"0", 0}, {"16", 16}, {"32", 32}, {"64", 64}},
        ParameterGroup::quality},
       {&P::projection,
        "projection",
        "Projection",
        "",
-       "What gather rays see. plane: a square picture with an angle of 160°, as paper 4 has it, "
-       "which misses 2.5% of the light at each bounce.",
+       "Directions of gather rays. hemisphere: all. plane: a square picture with an angle of 160°, "
+       "as in paper 4, which misses 2.5% of the light at each bounce. Both trace the same number "
+       "of rays.",
        {{"hemisphere", GatherProjection::hemisphere}, {"plane", GatherProjection::plane}},
        ParameterGroup::quality},
       {&P::linkMemory,
        "link_memory",
        "Link memory",
        "MiB",
-       "Memory limit for what gather rays see: 8 bytes each. If it is short, elements are larger.",
+       "Memory limit for the hits of gather rays, 8 bytes each. If it is too small, elements are "
+       "larger.",
        {1, 65536, kLogarithmic},
        ParameterGroup::budgets,
        "More: smaller elements on large levels, down to coarse_edge."}};
@@ -68,12 +69,12 @@ const StatisticTable<SurfaceLightStats>& surfaceLightStatistics() {
        {.name = "elements",
         .label = "Elements",
         .unit = "elements",
-        .meaning = "Elements of surface that exchange bounced light."}},
+        .meaning = "Surface elements that exchange bounced light."}},
       {&S::elementCorners,
        {.name = "element_corners",
         .label = "Corners of elements",
         .unit = "corners",
-        .meaning = "Points at which bounced light is found by gather rays."}},
+        .meaning = "Points at which gather rays find bounced light."}},
       {&S::elementEdge,
        {.name = "element_edge",
         .label = "Edge of elements",
@@ -91,7 +92,7 @@ const StatisticTable<SurfaceLightStats>& surfaceLightStatistics() {
        {.name = "direct_factors",
         .label = "Direct factors",
         .unit = "factors",
-        .meaning = "Elements times lights whose direct light was found in this frame.",
+        .meaning = "Pairs of an element and a light whose direct light was computed in this frame.",
         .kind = StatisticKind::work}},
       {&S::masks,
        {.name = "masks",
@@ -103,7 +104,7 @@ const StatisticTable<SurfaceLightStats>& surfaceLightStatistics() {
        {.name = "surface_bytes",
         .label = "Memory of light on surfaces",
         .unit = "bytes",
-        .meaning = "Memory of elements, of what their rays see, and of their direct light.",
+        .meaning = "Memory of elements, of the hits of their rays, and of their direct light.",
         .budget = "link_memory",
         .cost = "{}"}}};
   return table;

@@ -122,21 +122,21 @@ struct TexelDrawing {
 const std::vector<TexelDrawing>& drawings() {
   static const std::vector<TexelDrawing> all{
       {{"atlas_texels", "Texels of the atlas",
-        "The texels that keep bounced light, each in another shade."},
+        "The texels that store bounced light, each in a different shade."},
        texels},
       {{"texel_links", "Links of texels",
         "The number of links by which each texel receives light."},
        linkCounts},
       {{"pending_links", "Pending links",
-        "Texels whose links are not found yet: they keep their light of before."},
+        "Texels whose links are not computed yet: they show their previous light."},
        pendingLinks},
       {{"depth_segments", "Segments of depths",
-        "How many depths are kept along each run of texels, of one for each pixel of its depth "
-        "maps: bright where depths compress badly."},
+        "Number of depths that are stored for each run of texels, as a share of the pixels of its "
+        "depth maps: bright where depths compress badly."},
        segments},
       {{"query_error", "Errors of stored depths",
-        "How often stored depths say something else than rays about what a texel sees, of the "
-        "tests for its links."},
+        "Share of visibility tests for links in which the stored depths of a texel disagree with "
+        "rays."},
        queryErrors}};
   return all;
 }

@@ -27,19 +27,19 @@ const StatisticTable<RepairStats>& repairStatistics() {
        {.name = "paths_repaired",
         .label = "Repaired with",
         .unit = "paths",
-        .meaning = "Paths for each pixel by which a picture is repaired.",
+        .meaning = "Paths per pixel with which the picture is repaired so far.",
         .status = "repaired with {}"}},
       {&S::wanted,
        {.name = "paths_to_repair",
         .label = "To repair with",
         .unit = "paths",
-        .meaning = "Paths for each pixel with which repair ends.",
+        .meaning = "Paths per pixel at which repair ends.",
         .status = " of {} paths"}},
       {&S::rays,
        {.name = "repair_rays",
         .label = "Rays of repair",
         .unit = "rays",
-        .meaning = "Rays traced to repair the picture, and to find its edges before it settles.",
+        .meaning = "Rays traced to repair the picture, and to antialias edges before it settles.",
         .kind = StatisticKind::work,
         .inTimeline = true}}};
   return table;
@@ -221,11 +221,12 @@ const ParameterTable<RepairParameters>& repairParameters() {
       "repair",
       "Repair with",
       "paths",
-      "Paths of the reference for each pixel that repair a picture at rest in the editor's window: "
-      "what they find missing is added, as far as their noise allows to tell. On the cpu backend "
-      "the first paths are traced, and edges are smoothed, before the picture has settled. 0: all "
-      "this is off; the picture is refined with light samples instead. Recordings and replays do "
-      "not repair; render does only if this is set.",
+      "Paths per pixel of the reference that repair a picture at rest in the editor's window: the "
+      "missing light that they find is added, except where it cannot be told from noise. More: "
+      "less error; the time at rest grows in proportion. On the cpu backend the first paths are "
+      "traced, and edges are antialiased, before the picture has settled. 0: no repair; the "
+      "picture is refined with light samples instead. Recordings and replays do not repair; render "
+      "does only if this is set.",
       {0, 1 << 16, kLogarithmic},
       ParameterGroup::picture};
   return table;

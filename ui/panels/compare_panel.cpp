@@ -30,8 +30,8 @@ std::vector<std::string> sides() {
 std::optional<std::string> sideCombo(const PanelContext& ui, const char* label,
                                      const std::string& widget, const std::string& current) {
   labelledRow(ui, label,
-              "live: the picture as it is set here. Others can be had by the action split.on, with "
-              "parameters of their own.");
+              "live: the picture with the settings of this panel. The action split.on shows any "
+              "method with other parameters.");
   const std::vector<std::string> all = sides();
   const int chosen = combo(ui, widget, current, all);
   if (chosen == kNone || all[static_cast<size_t>(chosen)] == current) return std::nullopt;

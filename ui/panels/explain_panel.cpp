@@ -82,7 +82,7 @@ void blockers(const PanelContext& ui, const LightShare& l, int row, Requests& re
   if (ImGui::SmallButton((label + "##blocker").c_str()))
     requests.actions.push_back(fmt::format("explain.blocker {} 0", row));
   ui.name(fmt::format("row.{}/blocker", row));
-  std::string help = "Keeps light away; a click selects it.";
+  std::string help = "Blocks the light. Click to select it.";
   for (const BlockingObject& b : l.blockers)
     help += fmt::format("\n{}: {}, {} sample{}", b.name, luxText(b.withheld), b.samples,
                         b.samples == 1 ? "" : "s");

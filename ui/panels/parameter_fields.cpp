@@ -73,7 +73,7 @@ void costLine(const PanelContext& ui, const MethodInfo& method, const ParameterS
   // one line, so that the items below do not move when the text changes.
   rightAligned(cost->measured, theme::kTextDim);
   ui.name(spec.name + "/cost");
-  tooltip(ui, "Mean of the frames of the last seconds that drew upon this budget. " + cost->buys);
+  tooltip(ui, "Mean over the frames of the last seconds that used this budget. " + cost->buys);
 }
 
 // Below a parameter that leaves the choice to the method: what it chose, and why.

@@ -91,25 +91,22 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
   const GiOutput& output = ui.session.output();
   const GiStats& stats = output.stats;
   if (output.settled && !output.refined) {
-    parts.push_back(
-        {"settled", withIcon(icon::kSettled, "refining"), theme::kGood,
-         "The picture is what the scene asks for. While nothing changes it becomes better: by "
-         "paths of the reference, or by more light samples."});
+    parts.push_back({"settled", withIcon(icon::kSettled, "refining"), theme::kGood,
+                     "All updates are done. Until the next edit, paths of the reference or more "
+                     "light samples improve the picture."});
   } else if (output.settled) {
-    parts.push_back(
-        {"settled", withIcon(icon::kSettled, "settled"), theme::kGood,
-         "The picture is what the scene asks for; another frame would change nothing."});
+    parts.push_back({"settled", withIcon(icon::kSettled, "settled"), theme::kGood,
+                     "All updates are done; more frames would not change the picture."});
   } else {
     const std::string text = stats.framesUntilSettled > 0
                                  ? "settled in " + frames(stats.framesUntilSettled)
                                  : "updating";
-    parts.push_back(
-        {"settled", withIcon(icon::kUpdating, text), theme::kAccent,
-         "Frames until the picture is what the scene asks for, at the pace of this one: first all "
-         "light samples, then smooth edges."});
+    parts.push_back({"settled", withIcon(icon::kUpdating, text), theme::kAccent,
+                     "Estimated frames until all updates are done: first the light samples, then "
+                     "antialiasing."});
   }
   parts.push_back({"time", frameTime(info.frameSeconds), theme::kText,
-                   "Time a frame, averaged over the last ones."});
+                   "Time per frame, averaged over the last frames."});
   for (const StatusText& text : statusTexts(stats.declared))
     parts.push_back({text.name, text.text, colourOf(text), text.meaning});
   const FrameWatch& watch = ui.session.watch();
@@ -121,9 +118,10 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
   if (!watch.latency.results().empty())
     parts.push_back(
         {"latency", latencyShort(watch.latency.results().back()), theme::kText,
-         "How soon the last edit was seen: " + watch.latency.results().back().what + ": " +
+         "Time until the last edit was visible: " + watch.latency.results().back().what + ": " +
              latencyText(watch.latency.results().back(), true) +
-             ". So many percent of the way from the picture before it to the settled one."});
+             ". The percentages are progress from the picture before the edit to the settled "
+             "picture."});
   const BackendInfo& backend = ui.session.renderer().backend().info();
   parts.push_back({"backend", backend.name, theme::kTextDim, backend.name + ": " + backend.device});
   if (info.recording)
@@ -143,13 +141,12 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
 
   if (const std::string probes = ui.session.probes().text(ui.session.unit()); !probes.empty())
     parts.push_back({"probes", probes, theme::kText,
-                     "Light probes that are valid, and how far their light is found."});
+                     "Number of valid light probes, and the progress of computing their light."});
   if (const auto& reading = ui.session.points().reading();
       reading && ui.session.points().probesPointer())
-    parts.push_back(
-        {"probe", readingText(*reading), theme::kText,
-         "Under the pointer: the light that falls on the surface (lx), and what comes from it to "
-         "the camera (nt = cd/m\u00b2)."});
+    parts.push_back({"probe", readingText(*reading), theme::kText,
+                     "At the pointer: the illuminance of the surface (lx), and the luminance that "
+                     "reaches the camera (nt = cd/m\u00b2)."});
   return parts;
 }
 

@@ -24,15 +24,14 @@ const ParameterTable<Parameters>& parameterTable() {
        "radius",
        "Radius",
        "m",
-       "Surfaces farther away than this block no light. A longer ray takes a little more time.",
+       "Surfaces farther away than this block no light. Longer rays take slightly more time.",
        {0.01, 1000.0, kLogarithmic}},
       {&P::falloff,
        "falloff",
        "Falloff",
        "",
-       "How much light a surface nearer than the radius lets through. none: no light. linear, "
-       "root: "
-       "more with its distance, and all at the radius.",
+       "How much light a surface nearer than the radius transmits. none: no light. linear, root: "
+       "more with its distance, and all light at the radius. No cost in time.",
        {{"none", Falloff::none}, {"linear", Falloff::linear}, {"root", Falloff::root}}},
       seedParameters(),
       sampleParameters()};
@@ -50,7 +49,7 @@ const StatisticTable<AmbientOcclusionStats>& statisticTable() {
       {&AmbientOcclusionStats::samples,
        {.name = "samples_added",
         .label = "Samples added",
-        .unit = "samples a pixel",
+        .unit = "samples per pixel",
         .meaning = "Rays that were traced for each pixel.",
         .kind = StatisticKind::work,
         .inTimeline = true,

@@ -9,25 +9,25 @@ const ParameterTable<LightFieldParameters>& lightFieldParameters() {
        "field_texel",
        "Texel of the field",
        "m",
-       "Side of the texels of surface that keep the light of the field. Texels are larger where "
-       "field_memory is short.",
+       "Side of the surface texels that store the light of the field. Half the side: four times "
+       "the texels, memory and work. Texels are larger if field_memory is too small.",
        {0.02, 10.0, kLogarithmic},
        ParameterGroup::quality},
       {&P::fieldDivisions,
        "field_directions",
        "Directions",
        "directions",
-       "Directions along which light travels, each both ways. More: finer shadows of bounced "
-       "light, "
-       "more memory and work.",
+       "Directions along which light travels, each in both senses. More: finer shadows of bounced "
+       "light; memory and work grow in proportion.",
        {{"33", 4}, {"129", 8}, {"513", 16}, {"2049", 32}}},
       {&P::fieldSight,
        "field_sight",
        "Visibility",
        "",
-       "How texels find what they see in a direction. lines: on a grid of parallel lines, as paper "
-       "5 has it. rays: exactly; the cost depends less on the number of triangles. automatic: rays "
-       "where there are many triangles for each texel.",
+       "How to find what a texel sees in a direction. lines: on a grid of parallel lines, as in "
+       "paper 5; the cost grows with the number of triangles. rays: exact, one ray for each texel "
+       "and direction. automatic: rays in levels with more than 16 triangles per texel, otherwise "
+       "lines.",
        {{"automatic", FieldSightChoice::automatic},
         {"lines", FieldSightChoice::lines},
         {"rays", FieldSightChoice::rays}}},
@@ -35,28 +35,30 @@ const ParameterTable<LightFieldParameters>& lightFieldParameters() {
        "field_cell",
        "Cell of lines",
        "texels",
-       "Distance of parallel lines, as a multiple of the side of a texel. Smaller: less leaks at "
-       "edges, more work.",
+       "Distance of parallel lines, as a multiple of the side of a texel. Smaller: fewer light "
+       "leaks at edges; half the distance costs up to four times the work. Not used with rays.",
        {0.1, 10.0, kLogarithmic},
        ParameterGroup::quality},
       {&P::fieldLamps, "field_lamps", "Lamps in the field",
-       "Area lights and surfaces that emit send their light along the directions of the field, as "
-       "paper 5 has it, in place of light samples. The cost does not depend on how many there are; "
-       "small lamps show single directions.",
+       "Area lights and emissive surfaces send their light along the directions of the field, as "
+       "in paper 5, instead of light samples. The cost does not depend on the number of lights, "
+       "but the light of small lamps is visibly split into single directions.",
        ParameterGroup::quality},
       {&P::fieldSets,
        "field_sets",
        "Sets of directions",
        "sets",
-       "Sets of turned directions that are averaged once the scene is at rest, so that bounced "
-       "light does not show single directions. 1: only those that are kept.",
+       "Number of rotated sets of directions that are averaged at rest, so that single directions "
+       "are not visible in bounced light. Each further set costs as much time as the first, spread "
+       "over frames at rest, and almost no memory. 1: only the first set.",
        {1, 256, kLogarithmic},
        ParameterGroup::quality},
       {&P::fieldMemory,
        "field_memory",
        "Memory of the field",
        "MiB",
-       "Memory for what texels see in all directions, about. If it is short, texels are larger.",
+       "Approximate memory for what texels see in all directions, 4 bytes for each texel and "
+       "direction. If it is too small, texels are larger.",
        {1, 65536, kLogarithmic},
        ParameterGroup::budgets,
        "More: smaller texels on large levels, down to field_texel."}};
@@ -82,7 +84,7 @@ const StatisticTable<LightFieldStats>& lightFieldStatistics() {
        {.name = "field_texels",
         .label = "Texels of the field",
         .unit = "texels",
-        .meaning = "Texels of surface that keep the light of the field."}},
+        .meaning = "Surface texels that store the light of the field."}},
       {&S::fieldTexelSide,
        {.name = "field_texel_side",
         .label = "Side of texels",
@@ -94,33 +96,34 @@ const StatisticTable<LightFieldStats>& lightFieldStatistics() {
        {.name = "field_directions",
         .label = "Directions",
         .unit = "directions",
-        .meaning = "Directions along which light travels, each both ways."}},
+        .meaning = "Directions along which light travels, each in both senses."}},
       {&S::fieldSamples,
        {.name = "field_samples",
         .label = "Partners found",
         .unit = "partners",
-        .meaning = "Pairs of a texel and a direction for which it was found in this frame what the "
-                   "texel sees.",
+        .meaning =
+            "Pairs of a texel and a direction whose visible texel was computed in this frame.",
         .kind = work}},
       {&S::fieldCrossings,
        {.name = "field_crossings",
         .label = "Crossings of lines",
         .unit = "crossings",
-        .meaning = "Crossings of parallel lines with surfaces that were found in this frame.",
+        .meaning =
+            "Intersections of parallel lines with surfaces that were computed in this frame.",
         .kind = work}},
       {&S::fieldRays,
        {.name = "field_rays",
         .label = "Rays of the field",
         .unit = "rays",
-        .meaning = "Rays for what texels see, and for the direct light of texels, that were traced "
-                   "in this frame.",
+        .meaning = "Rays that were traced in this frame for the visibility and the direct light of "
+                   "texels.",
         .kind = work}},
       {&S::fieldPrepared,
        {.name = "field_prepared",
         .label = "Prepared",
         .unit = "%",
-        .meaning = "Share of the directions in which it is found what texels see. Until all are, "
-                   "bounced light is in part that of before, or of fewer directions.",
+        .meaning = "Share of the directions in which visibility is computed. Below 100%, bounced "
+                   "light is partly outdated or uses fewer directions.",
         .kind = pending,
         .status = "light field {}",
         .shownFrom = 0.0,
@@ -129,7 +132,7 @@ const StatisticTable<LightFieldStats>& lightFieldStatistics() {
        {.name = "field_bytes",
         .label = "Memory of the field",
         .unit = "bytes",
-        .meaning = "Memory of what texels see and of their light.",
+        .meaning = "Memory of the visibility and the light of texels.",
         .budget = "field_memory",
         .cost = "{}"}}};
   return table;

@@ -172,7 +172,7 @@ ViewPicture mapView(const ImperfectPicture& in) {
   return out;
 }
 
-// Whether rays say something else than the maps about what pixels see of some lights.
+// Where shadow maps and rays disagree about the visibility of some lights.
 ViewPicture errorView(const ImperfectPicture& in) {
   ViewPicture out;
   out.image = emptyPicture(in.view());
@@ -230,22 +230,23 @@ struct ImperfectDrawing {
 const std::vector<ImperfectDrawing>& imperfectDrawings() {
   static const std::vector<ImperfectDrawing> all{
       {{"pvpl_importance", "Importance of potential samples",
-        "The reflective map of all lights, unfolded: what each potential light sample brings to "
-        "the view, without what stands between, and which ones are chosen."},
+        "The reflective map of all lights, unfolded: the contribution of each potential light "
+        "sample to the view, without occlusion, and which samples are chosen."},
        importanceView},
       {{"blocker_points", "Occluder points",
-        "The points that one shadow map is drawn from, as large as the surface that they stand "
-        "for, and how long ago they were placed."},
+        "The points from which one shadow map is drawn, with the size of the surface that each "
+        "represents, and how many frames ago they were placed."},
        pointView},
       {{"occluder_density", "Size of occluder points",
-        "How large the points are that stand for each surface: dark where they are dense."},
+        "Size of the points that represent each surface: dark where points are dense."},
        densityView},
       {{"imperfect_map", "Imperfect shadow maps",
-        "Shadow maps of some light samples, drawn from points, and traced ones beside them."},
+        "Shadow maps of some light samples, drawn from points, and ray-traced shadow maps beside "
+        "them."},
        mapView},
       {{"visibility_error", "Errors of imperfect maps",
-        "How often imperfect shadow maps say something else than rays about what pixels see of "
-        "some light samples."},
+        "How often imperfect shadow maps disagree with rays about the visibility of some light "
+        "samples."},
        errorView}};
   return all;
 }

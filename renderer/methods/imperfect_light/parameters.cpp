@@ -27,16 +27,16 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
   using P = ImperfectParameters;
   static const ParameterTable<P> table{
       {&P::asPublished, "as_published", "As published",
-       "The values of the paper instead of those below, but for the number of samples and the size "
-       "of maps: guided view samples for each frame, billboards, pull-push, no defensive share, "
-       "and "
-       "imperfect maps at rest.",
+       "Uses the values of the paper instead of the parameters below, except for the number of "
+       "samples and the size of maps: guided view samples for each frame, billboards, pull-push, "
+       "no defensive share, and imperfect maps at rest. More errors of visibility, and a new "
+       "choice of samples whenever the camera moves.",
        quality},
       {&P::bouncedSamples,
        "bounced_samples",
        "Bounced samples",
        "",
-       "Number of light samples that carry bounced light, chosen for the view. Each has an "
+       "Number of light samples that carry bounced light, chosen for the view. Each costs an "
        "imperfect shadow map in every frame in which something changes.",
        {64, 65536, kLogarithmic},
        lightSamples},
@@ -44,8 +44,8 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "potential_lights",
        "Potential samples",
        "",
-       "Vertices of light paths among which the samples are chosen, in all bounces. More: finer "
-       "choice, more rays after an edit.",
+       "Number of vertices of light paths, over all bounces, among which the samples are chosen. "
+       "More: better choice, more rays after an edit.",
        {64, 1048576, kLogarithmic},
        lightSamples},
       pathParameters(),
@@ -53,9 +53,11 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "view_choice",
        "View samples by",
        "",
-       "Which visible points say what a potential sample brings to the view. fixed: the same for "
-       "all, by rays. random: pixels of a jittered grid, others for each. guided: pixels near the "
-       "image of the potential sample.",
+       "Visible points that estimate the contribution of a potential sample to the view. fixed: "
+       "the same points for all samples, found by rays. random: pixels of a jittered grid, "
+       "different for each sample. guided: pixels near the image of the potential sample. random "
+       "and guided are estimated again whenever the view changes, which costs time while the "
+       "camera moves.",
        {{"fixed", ViewChoice::fixed},
         {"random", ViewChoice::random},
         {"guided", ViewChoice::guided}},
@@ -64,27 +66,32 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "view_samples",
        "View samples",
        "",
-       "Number of visible points by which each potential sample is weighed.",
+       "Number of visible points that estimate the contribution of each potential sample. More: "
+       "better choice; the time of a choice grows in proportion.",
        {1, 1024, kLogarithmic},
        lightSamples},
       {&P::defence,
        "defence",
        "Defensive share",
        "%",
-       "Share of the samples that is chosen by flux alone. What is weighed leaves out what stands "
-       "between, so that the rest could be too bright.",
+       "Share of the samples that is chosen by flux only. The others are chosen by an estimate "
+       "without occlusion and could be too bright without this share. More: fewer samples where "
+       "the view needs them.",
        {0.0, 100.0},
        lightSamples},
       {&P::betweenTexels, "between_texels", "Between texels",
-       "Samples lie between potential samples that are close in the picture, so that they slide "
-       "over surfaces as the camera moves. Off: at potential samples, which is exact.",
+       "Places samples between potential samples that are close in the picture, so that they slide "
+       "over surfaces as the camera moves. Costs exactness; off: samples lie exactly at potential "
+       "samples.",
        lightSamples},
       {&P::adapt,
        "adapt",
        "Adapt to the view",
        "",
-       "off: samples by flux, and occluder points evenly on all surfaces. steady: for a view near "
-       "the camera that stays while it moves a little. each_frame: for each view, as published.",
+       "Whether samples and occluder points are chosen for the view. off: samples by flux, points "
+       "evenly on all surfaces. steady: for a view near the camera, which stays the same during "
+       "small camera motion. each_frame: for every view, as published; samples are chosen again in "
+       "each frame in which the camera moves.",
        {{"off", ViewAdaption::off},
         {"steady", ViewAdaption::steady},
         {"each_frame", ViewAdaption::eachFrame}},
@@ -93,35 +100,38 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "occluder_points",
        "Occluder points",
        "points",
-       "Points on the surfaces that are drawn into each imperfect shadow map. A power of two is "
-       "used.",
+       "Points on the surfaces that are drawn into each imperfect shadow map; rounded to a power "
+       "of two. More: fewer errors of visibility; the time of each map grows in proportion.",
        {64, 65536, kLogarithmic},
        quality},
       {&P::twoSided, "two_sided", "Points for both ends",
-       "Occluder points are dense where surfaces fill the view of visible places and of light "
-       "samples. Off: of visible places alone, as published.",
+       "Occluder points are dense where surfaces cover a large solid angle as seen from visible "
+       "points and from light samples. Takes slightly more time to place points. Off: only as seen "
+       "from visible points, as published.",
        quality},
       {&P::resolution,
        "imperfect_resolution",
        "Imperfect map size",
        "texels",
-       "Side of an imperfect shadow map. A power of two is used.",
+       "Side of an imperfect shadow map; rounded to a power of two. More: finer shadows and less "
+       "light leaking, but more holes between points and more time per map.",
        {16, 256, kLogarithmic},
        quality},
       {&P::splats,
        "splats",
        "Points drawn as",
        "",
-       "tilted: discs on the surface. billboard: discs that face the light, as published.",
+       "Shape in which occluder points are drawn. tilted: discs on the surface. billboard: discs "
+       "that face the light, as published; causes more false shadows, at no less cost.",
        {{"billboard", SplatShape::billboard}, {"tilted", SplatShape::tilted}},
        quality},
       {&P::fill,
        "fill",
        "Holes filled",
        "",
-       "What becomes of texels that no point covers. planes: they are filled between points of one "
-       "plane. pull_push: by means of their neighbourhood, as published, which adds false shadows. "
-       "none: no occluder.",
+       "How texels that no point covers are filled. planes: between points on one plane. "
+       "pull_push: by means of their neighbourhood, as published, which adds false shadows. none: "
+       "no occluder, which leaks light but costs no time.",
        {{"none", HoleFilling::none},
         {"pull_push", HoleFilling::pullPush},
         {"planes", HoleFilling::planes}},
@@ -131,37 +141,42 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "Interleaving",
        "pixels",
        "Side of the squares of pixels that share the samples while something changes: each pixel "
-       "takes one part of them, and a blur spreads it. At rest each pixel has all. 1: always all.",
+       "sums one part of them, and a blur distributes the light. Larger: shorter frames, more "
+       "noise at small objects. At rest each pixel sums all samples. 1: always all.",
        {1, 16},
        quality},
       {&P::clampDistance,
        "clamp_distance",
        "Clamp distance",
        "m",
-       "Smallest distance in the 1/d² term of a sample. Less: brighter corners, more bright spots.",
+       "Minimum distance in the 1/d² term of a sample. Smaller: brighter corners, more bright "
+       "spots. No cost in time.",
        {0.0, 10.0},
        quality},
       {&P::cornerLight, "corner_light", "Light in corners",
-       "At rest, traces the bounced light that clamp_distance removes near surfaces.", quality},
+       "At rest, adds the bounced light that clamp_distance removes near surfaces. Costs rays at "
+       "each pixel.",
+       quality},
       {&P::settle,
        "settle",
        "At rest",
        "",
-       "Shadow maps of the settled picture. maps: traced against all triangles. imperfect: those "
-       "of points.",
+       "Shadow maps of the settled picture. maps: traced against all triangles, which takes more "
+       "time at rest. imperfect: drawn from points, with false shadows and light leaks.",
        {{"imperfect", ImperfectRest::imperfect}, {"maps", ImperfectRest::maps}},
        quality},
       {&P::settledResolution,
        "settled_resolution",
        "Map size at rest",
        "texels",
-       "Side of traced shadow maps. More: sharper shadows at rest, which takes longer.",
+       "Side of traced shadow maps. More: sharper shadows at rest; twice the side costs four times "
+       "the rays.",
        {16, 1024, kLogarithmic},
        quality},
       {&P::raysChoose, "rays_choose", "Rays choose at rest",
-       "At rest, rays find how much of the light of potential samples reaches the view, and "
-       "samples "
-       "are chosen anew by it. Pays where walls stand between.",
+       "At rest, rays measure how much of the light of potential samples reaches the view, and the "
+       "samples are chosen again from that. Useful where walls block many samples. Costs rays from "
+       "each potential sample to view samples.",
        lightSamples},
       frameBudgetParameters(),
       surfaceParameters()};

@@ -41,24 +41,24 @@ const StatisticTable<ImperfectStats>& imperfectStatistics() {
        {.name = "defended",
         .label = "Flux out of sight",
         .unit = "share",
-        .meaning = "Share of the bounced flux that can reach no view sample, which the defensive "
-                   "share alone chooses."}},
+        .meaning = "Share of the bounced flux that cannot reach any view sample; only the "
+                   "defensive share of samples represents it."}},
       {&S::occluderPoints,
        {.name = "occluder_points",
         .label = "Occluder points",
         .unit = "points",
-        .meaning = "Points on the surfaces that imperfect shadow maps are drawn from."}},
+        .meaning = "Points on the surfaces from which imperfect shadow maps are drawn."}},
       {&S::pointsPending,
        {.name = "points_pending",
         .label = "Points to place",
         .unit = "frames",
-        .meaning = "Frames until all points are placed for the present view.",
+        .meaning = "Frames until all points are placed for the current view.",
         .kind = StatisticKind::pending}},
       {&S::pointBytes,
        {.name = "point_bytes",
         .label = "Memory of points",
         .unit = "bytes",
-        .meaning = "Memory of occluder points and of what they are chosen by."}},
+        .meaning = "Memory of occluder points and of the data by which they are chosen."}},
       commonStatistics()};
   return table;
 }

@@ -24,8 +24,8 @@ const StatisticTable<PathTracerStats>& pathTracerStatistics() {
   static const StatisticTable<PathTracerStats> table{
       {&PathTracerStats::paths,
        {.name = "paths_per_pixel",
-        .label = "Paths a pixel",
-        .unit = "paths a pixel",
+        .label = "Paths per pixel",
+        .unit = "paths per pixel",
         .meaning = "Paths that were traced for each pixel.",
         .kind = StatisticKind::work,
         .budget = "samples_per_frame",

@@ -45,7 +45,7 @@ TEST(BudgetCosts, AreMeansOverTheFramesThatUsedTheBudget) {
   EXPECT_EQ(measured("max_shadow_maps", timeline, {}), "25 maps, 15 ms (600 \u00b5s each)");
   EXPECT_EQ(measured("max_rays", timeline, {}), "2500 rays, 15 ms (6 \u00b5s each)");
   EXPECT_EQ(measured("max_paths", timeline, {}), "idle");
-  EXPECT_EQ(measured("frame_time", timeline, {}), "20 ms a frame, 30 ms at most");
+  EXPECT_EQ(measured("frame_time", timeline, {}), "20 ms per frame, 30 ms at most");
 }
 
 TEST(BudgetCosts, ShadowMapsShowTheirMemory) {

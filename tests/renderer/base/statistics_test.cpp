@@ -94,7 +94,7 @@ TEST(Statistics, TheStatusLineListsThem) {
   stats.oldest = 3;
   stats.samplesPerPixel = 4;
   EXPECT_EQ(textsOf(stats),
-            (Texts{"1,234,567 probes", "2 waiting, oldest 3 frames", "4 samples a pixel"}));
+            (Texts{"1,234,567 probes", "2 waiting, oldest 3 frames", "4 samples per pixel"}));
   const std::vector<StatusText> texts = statusTexts(probeStatistics().of(stats));
   EXPECT_EQ(texts[1].name, "waiting");
   EXPECT_EQ(texts[1].meaning, "Probes that wait. The longest wait.");
