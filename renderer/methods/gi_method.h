@@ -91,7 +91,7 @@ struct GiOutput {
   // until the next call of the method.
   std::shared_ptr<const MirroredLight> surfaces;
   GiStats stats;
-  // An exception of work in the background, to be told once: the picture does without its result.
+  // Exception of a background task, reported once. The picture lacks its result.
   std::exception_ptr failure;
 };
 

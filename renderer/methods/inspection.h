@@ -127,9 +127,9 @@ using InspectedLinks =
 // null or empty.
 struct Inspection {
   std::span<const LightSample> lights;  // in an order that does not change with edits
-  // They leave out the light of the sky, but for its suns: surfaces have it.
+  // The samples exclude sky light except suns, which is stored on surfaces.
   bool lightsLeaveOutSky = false;
-  // Nor surfaces that emit.
+  // They also exclude emissive surfaces.
   bool lightsLeaveOutSurfaces = false;
   std::shared_ptr<const PatchView> patches;
   std::shared_ptr<const TexelView> texels;

@@ -11,7 +11,7 @@ class KnownSurfaces final : public KnownLight {
   // Refers to its argument.
   explicit KnownSurfaces(const MirroredLight& light) : light_(light) {}
 
-  // Not in corners and in mirrors, where paths spread little compared with what is kept as one.
+  // Not near corners or mirrors, where the stored light is coarser than the spread of the paths.
   std::optional<vec3> reflectedAt(const Ray& ray, const Hit& hit, float spread) const override {
     const uint64_t place = light_.placeOf(ray, hit);
     if (spread < kLeastSpread * light_.areaOf(place)) return std::nullopt;

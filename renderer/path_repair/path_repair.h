@@ -37,8 +37,8 @@ class PathRepair {
   // After goOn() with these options: whether image() has all paths.
   bool isDone(const Options& options) const;
   bool hasBegun() const { return live_ != nullptr; }
-  // Of a preview with so many paths in the end: whether the picture is so wrong, and the paths are
-  // so few, that more of them pay, or are not shown yet.
+  // Whether a preview that ends at this number of paths needs more: its error is large and it has
+  // few paths, or some are not shown yet.
   bool isUrgent(int wanted) const {
     const bool isNew = filter_ && mostShown_ < whole_.paths;
     return isWrong_ && (whole_.paths < std::min(wanted, kQuickPaths) || isNew);

@@ -46,7 +46,7 @@ class PathSums {
     return paths > 0 ? sum / static_cast<double>(paths) : 0.0;
   }
 
-  // Takes something from each path, by pixel. All groups must be complete.
+  // Subtracts a value from each path of a pixel. All groups must be complete.
   void subtract(const Image& taken) {
     const float halfPaths = 0.5f * weight;
     for (size_t i = 0; i < squares_.size(); ++i) {
@@ -57,7 +57,7 @@ class PathSums {
       second.pixels[i] -= halfPaths * t;
     }
   }
-  // As if each path counted as so many.
+  // Multiplies the weight of every path.
   void scale(float factor) {
     for (size_t i = 0; i < squares_.size(); ++i) {
       first.pixels[i] *= factor;

@@ -73,7 +73,8 @@ class ResidualFilter {
   size_t next_ = 0;
   int row_ = 0;  // from which on the next step is missing
   Image residual_;
-  // Squares of the picture, and for pixels that show surfaces those of what the halves differ by.
+  // Sums of squares of the picture and, for pixels that show surfaces, of the difference of the
+  // halves.
   double light_ = 0.0, surfaceLight_ = 0.0, surfaceNoise_ = 0.0;
   double borderCommon_ = 0.0, borderPower_ = 0.0;  // of pixels that show no surface
   Evidence band_;                                  // of the last band, over the whole picture

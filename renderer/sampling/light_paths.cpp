@@ -121,7 +121,8 @@ SampleCounts LightPaths::shareDirectSamples(const RenderScene& scene,
     share.order = lamps[i].importance;
   }
   SampleCounts counts = shareSamples(shares, directSamples(counts_));
-  // Those that are served stand for what the others bring to the view, which is not their flux.
+  // Lamps that get samples also represent the contribution of the others to the view, not their
+  // flux.
   double all = 0.0, served = 0.0;
   for (size_t i = 0; i < shares.size(); ++i) {
     all += lamps[i].light;

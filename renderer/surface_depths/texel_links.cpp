@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-// Squares nearer than so many of their sides have their form factor in closed form.
+// Distance, in sides of the square, below which its form factor is computed in closed form.
 constexpr float kNear = 6.0f;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How often the stored depths of texels say something else than rays.
+// How often stored depths and traced rays disagree about visibility.
 #pragma once
 
 #include "renderer/surface_depths/surface_depths.h"

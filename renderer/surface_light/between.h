@@ -1,4 +1,4 @@
-// Whether something may stand between two others.
+// Conservative test: may an object block the line between two others?
 #pragma once
 
 #include <algorithm>

@@ -38,7 +38,7 @@ std::vector<vec3> gatherDirections(int count, uint32_t scramble,
                                    GatherProjection projection = GatherProjection::hemisphere);
 // Such a direction for a point of the unit square.
 vec3 projectedDirection(const vec2& point, GatherProjection projection);
-// Number of such sets. Neighbouring samples have different ones, so that their mean knows more.
+// Number of such sets. Neighbouring samples use different sets, so that their mean has less noise.
 inline constexpr uint32_t kDirectionSets = 16;
 
 // The frame of a spot's directions: around its normal, turned differently at each place. Otherwise

@@ -32,7 +32,7 @@ class SceneTexels {
   // [m].
   Update take(const RenderScene& scene, Services& services, const RenderSceneChanges& changes,
               const std::function<float()>& sideOf, TexelOrder order);
-  // The next take() finds texels with nothing of before.
+  // The next take() rebuilds all texels.
   void restart() { isStarted_ = false; }
   // Whether the texels are those of now.
   bool isCurrent() const { return !isStale_ && moved_.empty(); }

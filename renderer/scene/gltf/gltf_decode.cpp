@@ -15,7 +15,8 @@ namespace lamplighter {
 
 namespace {
 
-// What tinygltf is not given: extensions and extras are read from the JSON, the rest is not read.
+// Members that are not passed to tinygltf: extensions and extras are read from the JSON, the others
+// are not used.
 constexpr std::string_view kLeftOut[] = {"extensions", "extras", "min", "max", "target", "targets"};
 
 void appendText(std::string& out, const std::string& text) {
@@ -25,15 +26,16 @@ void appendText(std::string& out, const std::string& text) {
   out += isPlain ? '"' + text + '"' : Json(text).dump();
 }
 
-// The shortest that comes back as it was: 3 for 3.0, since tinygltf takes no other count.
+// The shortest text that is read back unchanged: 3 for 3.0, because tinygltf accepts only integers
+// as counts.
 void appendNumber(std::string& out, double number) {
   char text[32];
   out.append(text, std::to_chars(text, std::end(text), number).ptr);
   if (number == 0.0 && std::signbit(number)) out += ".0";  // -0 would be the integer
 }
 
-// As JSON, but for kLeftOut. Written here and not by dump() of a copy, which takes as long as all
-// of tinygltf.
+// As JSON, without the members of kLeftOut. Not by dump() of a copy, which takes as long as
+// tinygltf itself.
 void append(std::string& out, const Json& value) {
   char separator = value.is_object() ? '{' : '[';
   if (value.is_object()) {
@@ -60,7 +62,7 @@ void append(std::string& out, const Json& value) {
   }
 }
 
-// Buffers by their index as a name; readBuffer() knows what is behind it.
+// Buffers whose URI is their index; readBuffer() maps it to the data.
 Json buffersOf(const Json& buffers) {
   Json out = Json::array();
   for (const Json& buffer : buffers) {
@@ -70,7 +72,7 @@ Json buffersOf(const Json& buffers) {
   return out;
 }
 
-// Cameras as they are shown: in perspective, with a lens that is whole.
+// Every camera as a perspective camera with all required members.
 Json camerasOf(const Json& cameras) {
   Json out = Json::array();
   for (const Json& camera : cameras) {

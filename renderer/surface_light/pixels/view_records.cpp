@@ -35,8 +35,8 @@ constexpr float kSmoothRadius = 1.5f;
 // Where it could be used if it were a record of the finest level [pixels].
 constexpr float kFinestRadius = 24.0f;
 
-// Records beside each other gather light from different directions; those of 4 × 4 cells know all.
-// (Keller and Heidrich, "Interleaved Sampling", 2001)
+// Neighbouring records gather light from different directions; together, 4 × 4 cells cover all
+// directions. (Keller and Heidrich, "Interleaved Sampling", 2001)
 constexpr uint32_t kSets = 16;
 uint8_t setOf(int x, int y) { return static_cast<uint8_t>(x % 4 + 4 * (y % 4)); }
 
