@@ -1,4 +1,4 @@
-// Depths on disk, so that a level that was opened before needs no rays for them.
+// Cache of depths on disk: a level that was opened before needs no rays for its depths.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace lamplighter {
 
 class DepthCache {
  public:
-  // Of all files; the oldest are deleted first.
+  // Size limit of all files together; the oldest files are deleted first.
   static constexpr uintmax_t kMostBytes = uintmax_t{256} << 20;
 
   // An empty path: nothing is kept on disk.
@@ -21,7 +21,7 @@ class DepthCache {
   // the layout. None with alpha masks, whose textures would have to be hashed.
   static std::optional<ContentKey> keyOf(const RenderScene& scene, const TexelSet& texels,
                                          const DepthMapLayout& layout);
-  // Completes depths that were restarted. False if there is no sound file.
+  // Fills depths after SurfaceDepths::restart(). Returns false if there is no valid file.
   bool load(const ContentKey& key, SurfaceDepths& depths) const;
   void save(const ContentKey& key, const SurfaceDepths& depths) const;
   std::filesystem::path fileOf(const ContentKey& key) const { return files_.fileOf(key); }

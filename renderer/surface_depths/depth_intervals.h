@@ -8,22 +8,22 @@
 
 namespace lamplighter {
 
-// Values that answer every query: from the first surface on, and less than the second. The depth
-// of the first surface is seen, that of the second one is not.
+// Stored values that answer every visibility query correctly: at least the depth of the first
+// surface, which is visible, and less than that of the second one, which is not.
 struct DepthInterval {
   uint16_t least = 0, most = 0xffffu;
 };
 
-// Equal values of consecutive texels.
+// Segments of equal values of consecutive texels.
 struct DepthSegments {
   std::vector<uint16_t> values;
-  std::vector<uint8_t> last;  // texel of each, within the run
+  std::vector<uint8_t> last;  // by segment: its last texel, as an index into the run
 };
-// A run has at most so many texels.
+// Maximum number of texels of a run.
 inline constexpr size_t kMostInRun = 256;
 
-// Appends the fewest segments such that each value lies in the intervals of its texels: intervals
-// are intersected until that is empty. At most kMostInRun intervals.
+// Appends the fewest segments such that each value lies in the intervals of its texels: consecutive
+// intervals are intersected until the intersection is empty. At most kMostInRun intervals.
 void compress(std::span<const DepthInterval> intervals, DepthSegments& out);
 
 }  // namespace lamplighter

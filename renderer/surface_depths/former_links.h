@@ -1,5 +1,5 @@
-// The links of a scene before some of its objects moved: what texels saw along segments that do not
-// meet these objects is still true, so only the other segments are traced again.
+// The links of a scene before some of its objects moved: the visibility of segments that do not
+// meet these objects is still valid, so only the other segments are traced again.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace lamplighter {
 
-// A node from which a texel receives light. Nodes of many texels are tested at some of them.
+// A node from which a texel receives light. The visibility of a node is tested at up to four of its
+// texels.
 struct TexelLink {
   uint32_t node : 28 = 0;
   uint32_t seen : 4 = 0;  // a bit for each tested texel of the node: whether it is seen
@@ -33,27 +34,27 @@ struct LinkTable {
 class FormerLinks {
  public:
   FormerLinks() = default;
-  // `error`: with which the links were refined.
+  // `error`: the error threshold with which the links were refined.
   FormerLinks(TexelTree tree, LinkTable table, float error)
       : tree_(std::move(tree)), table_(std::move(table)), error_(error) {}
   bool empty() const { return table_.texels() == 0; }
   size_t bytes() const { return table_.bytes() + tree_.bytes(); }
 
-  // Compares with the present tree. See TexelMoves.
+  // Finds the nodes that the old tree and the current one have in common. See TexelMoves.
   void compareWith(const TexelTree& tree, TexelMoves moves);
 
-  // What is known of one texel. To be asked for nodes of the present tree, in ascending order.
+  // Known links of one texel. Query the nodes of the current tree in ascending order.
   class OfTexel {
    public:
     enum class Known : uint8_t {
       nothing,
-      ends,  // links end at the same nodes, but moved objects may be in between
-      links  // nothing moved between the texel and the node: its links stay
+      ends,  // links end at the same nodes, but moved objects may block them
+      links  // nothing moved between the texel and the node: its links are still valid
     };
     Known at(uint32_t node, const TexelTree& tree, const SurfaceSpot& spot);
     // Adds the links of a node and of those below, where these are known.
     void append(uint32_t node, std::vector<TexelLink>& out) const;
-    // Which tested texels were seen, of a node at which a link may end.
+    // The bits TexelLink::seen of a node at which a link may end.
     uint32_t seen(uint32_t node) const;
 
    private:
@@ -62,8 +63,8 @@ class FormerLinks {
 
     const FormerLinks* all_ = nullptr;  // null: nothing is known
     std::span<const TexelLink> links_;
-    std::vector<uint8_t> isDivided_;              // by node that is gone
-    uint32_t knownUntil_ = 0, unknownUntil_ = 0;  // nodes before these are below an asked one
+    std::vector<uint8_t> isDivided_;              // by removed node
+    uint32_t knownUntil_ = 0, unknownUntil_ = 0;  // nodes before these are below a queried one
   };
   OfTexel of(uint32_t texel, const SurfaceSpot& spot) const;
   const TexelMoves& moves() const { return moves_; }
@@ -72,9 +73,10 @@ class FormerLinks {
   TexelTree tree_;
   LinkTable table_;
   float error_ = 0.0f;
-  std::vector<uint32_t> formerNode_;  // by present node; kNew where a texel of it changed
-  // Former nodes without a present one, and above each former node: the place in `gone_`; kNew:
-  // none (a node whose parent is not gone is not asked for).
+  std::vector<uint32_t>
+      formerNode_;  // by current node: its old number; kNew if one of its texels changed
+  // Old nodes that were removed; by old node, the index into `gone_` of a removed node above it, or
+  // kNew (a node whose parent was not removed is not queried).
   std::vector<uint32_t> gone_, goneAbove_;
   TexelMoves moves_;
 };

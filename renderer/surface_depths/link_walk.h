@@ -1,5 +1,5 @@
-// The walk down the tree of texels that finds what may light a spot of the surface: for links that
-// are kept, and for light that is gathered once.
+// Traversal of the texel tree that finds the nodes that may light a point of a surface: for stored
+// links, and for light that is gathered once.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace lamplighter {
 
-// At least the form factor of every part of the node, together: the bound of Lightcuts (Walter et
-// al. 2005) with a sphere and a cone of normals.
+// Upper bound of the form factor of a node: the bound of Lightcuts (Walter et al. 2005) with a
+// sphere and a cone of normals.
 float largestFormFactor(const SurfaceSpot& spot, const TexelTree::Node& node);
 
-// Calls visit(node) for each node at which a link may end, by ascending nodes. `error`: nodes whose
-// form factor may be larger are refined.
+// Calls visit(node) for each node at which a link may end, in ascending order. `error`: nodes whose
+// form factor may be larger are replaced by their children.
 template <typename Visit>
 void forEachEnd(const SurfaceSpot& spot, const TexelTree& tree, float error, const Visit& visit) {
   for (uint32_t n = 0; n < tree.size();) {
@@ -28,7 +28,8 @@ void forEachEnd(const SurfaceSpot& spot, const TexelTree& tree, float error, con
   }
 }
 
-// Calls test(texel) for up to four texels of a node, whose visibility stands for that of all.
+// Calls test(texel) for up to four texels of a node; their mean visibility is used for all of its
+// texels.
 template <typename Test>
 void forEachTested(const TexelTree& tree, const TexelTree::Node& node, const Test& test) {
   constexpr uint32_t kMostTested = 4;
@@ -37,9 +38,9 @@ void forEachTested(const TexelTree& tree, const TexelTree::Node& node, const Tes
     test(tree.order()[node.firstTexel + (2 * k + 1) * node.texels / (2 * tested)]);
 }
 
-// Calls visit(node, factor) for each node that may light a spot, by ascending nodes, with its form
-// factor if nothing stands between. `own`: the texel of the spot, which does not light itself, or
-// TexelSet::kNone. `error`: nodes whose form factor may be larger are divided.
+// Calls visit(node, factor) for each node that may light a spot, in ascending order, with its form
+// factor without occlusion. `own`: the texel of the spot, which does not light itself, or
+// TexelSet::kNone. `error`: nodes whose form factor may be larger are replaced by their children.
 template <typename Visit>
 void walkLinks(const SurfaceSpot& spot, uint32_t own, const TexelSet& texels, const TexelTree& tree,
                float error, const Visit& visit) {

@@ -1,11 +1,11 @@
-// What each texel of the surface sees in all directions, compressed along coherent runs of texels:
-// visibility between any texel and any point without a ray (paper 3, "Coherent surface shadow
-// maps").
+// Depth maps of all directions at each texel of the surface, compressed along runs of neighbouring
+// texels: they answer visibility between any texel and any point without a ray (paper 3, "Coherent
+// surface shadow maps").
 //
 // Area lights block nothing, so that they can move freely.
 //
-// A value of a pixel lies between the first surface and the next one that faces the texel, so it
-// answers for every point on a surface that the texel might light. Depths are distances from the
+// The value of a pixel lies between the first surface and the next one that faces the texel, so it
+// is correct for every point on a surface that the texel might light. Depths are distances from the
 // texel in 65,534 steps of the diameter of the scene.
 #pragma once
 
@@ -20,51 +20,53 @@ namespace lamplighter {
 
 class SurfaceDepths {
  public:
-  // Forgets everything. Texels of one side of an object are in runs of their own.
+  // Discards all depths. Runs do not cross objects or the two sides of an object.
   void restart(const RenderScene& scene, const TexelSet& texels, const DepthMapLayout& layout);
-  // Traces up to about `most` rays more. Returns their number. The result does not depend on `most`
-  // or on the number of threads. `scene` and `texels`: those of restart().
+  // Traces up to about `most` more rays. Returns their number. The result does not depend on `most`
+  // or on the number of threads. `scene` and `texels` must be those of restart().
   uint64_t goOn(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,
                 uint64_t most);
   bool isDone() const { return nextUnit_ == units(); }
-  // For files: everything that goOn() found. restore() completes depths after restart(); it returns
-  // false and changes nothing if the bytes are not those of such texels.
+  // For files: all results of goOn(). restore() fills the depths after restart(); it returns false
+  // and changes nothing if the bytes do not match these texels.
   std::vector<uint8_t> saved() const;
   bool restore(std::span<const uint8_t> bytes);
 
-  // Share of the work that is done.
+  // Share of the work that is done, from 0 to 1.
   float progress() const;
 
-  // Whether nothing is between the texel and a point of a surface. False below the texel.
+  // Whether nothing blocks the line between the texel and a point of a surface (world space). False
+  // below the horizon of the texel.
   bool sees(const SurfaceTexel& texel, size_t number, const vec3& point) const;
   // Whether the texel sees the sky in the direction of a pixel.
   bool isOpen(size_t texel, uint32_t pixel) const { return valueOf(texel, pixel) == kOpen; }
   static constexpr uint16_t kOpen = 0xffffu;
   uint16_t valueOf(size_t texel, uint32_t pixel) const;
 
-  // Segments of the run of a texel, over the pixels of all its maps: 1 if nothing is compressed.
+  // Number of segments of the run of a texel, divided by the pixels of all its maps: 1 if nothing
+  // is compressed.
   float segmentShareOf(size_t texel) const;
-  // Whether all pixels of a texel are found.
+  // Whether all pixels of a texel are computed.
   bool isFound(size_t texel) const { return (runOf_[texel] + 1) * blocks() <= nextUnit_; }
 
   const DepthMapLayout& layout() const { return layout_; }
   size_t segments() const;
-  // Pixels of all maps: what the segments stand for.
+  // Number of pixels of all maps, without compression.
   size_t uncompressed() const { return texels_ * layout_.pixels(); }
   size_t bytes() const;
 
-  // The texels from `first` on; the segments of pixel q are [starts[q], starts[q + 1]).
+  // A run: `count` texels from `first`. The segments of pixel q are [starts[q], starts[q + 1]).
   struct Run {
     uint32_t first = 0, count = 0;
     std::vector<uint32_t> starts;
     DepthSegments segments;
   };
   std::span<const Run> runs() const { return runs_; }
-  // Of a depth, per metre.
+  // Depth steps per metre.
   float steps() const { return steps_; }
 
  private:
-  size_t blocks() const;  // of pixels
+  size_t blocks() const;  // number of blocks of pixels
   size_t units() const { return runs_.size() * blocks(); }
   uint64_t trace(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,
                  const Run& run, uint32_t pixel, std::vector<DepthInterval>& out) const;

@@ -1,9 +1,9 @@
-// Bounced light of a scene at its texels: hierarchical radiosity along kept links, with visibility
-// stored on the surfaces or found by rays (paper 3, sections 3 and 4).
+// Bounced light of a scene at its texels: hierarchical radiosity along stored links, with
+// visibility from stored depths or from rays (paper 3, sections 3 and 4).
 //
-// After geometry changed, depths, then links are found over several frames; meanwhile texels keep
-// their light. After objects moved, came or went, only rays that meet them are traced again. When
-// all is found, the light is that of a fresh start, bit for bit.
+// After a change of geometry, first depths and then links are computed over several frames; until
+// then texels keep their light. After objects moved, came or went, only rays that meet them are
+// traced again. When all is computed, the light is bitwise equal to that of a new start.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@
 
 namespace lamplighter {
 
-// What decides whether texels see each other.
+// How visibility between texels is determined.
 enum class TexelVisibility : uint8_t { stored, rays };
 
 struct TexelRadiosityOptions {
@@ -27,29 +27,29 @@ struct TexelRadiosityOptions {
   TexelOrder order = TexelOrder::zigzag;
   DepthMapLayout map;
   TexelVisibility visibility = TexelVisibility::stored;
-  float linkError = 0.005f;           // form factor above which nodes are refined
-  size_t memory = size_t{256} << 20;  // of depths and links, about
+  float linkError = 0.005f;  // form factor above which nodes are replaced by their children
+  size_t memory = size_t{256} << 20;  // approximate limit for depths and links [bytes]
   int bounces = 2;
   uint32_t seed = 1;
   bool operator==(const TexelRadiosityOptions&) const = default;
 };
-// The side of texels that memory allows [m].
+// The side of texels that the memory limit allows [m].
 float texelSideOf(const RenderScene& scene, const TexelRadiosityOptions& options);
 
 class TexelRadiosity final : public TexelIrradiance {
  public:
-  // Takes the changes of each frame, also of those without update().
+  // Call in each frame, also in frames without update().
   void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
-  // Goes on by about `mostRays`.
+  // Continues the computation by up to about `mostRays` rays.
   void update(const RenderScene& scene, Services& services, const TexelRadiosityOptions& options,
               uint64_t mostRays);
   bool isDone() const override;
-  // Share of what is needed of depths and links that is found.
+  // Share of the required depths and links that is computed, from 0 to 1.
   float progress() const;
   uint32_t version() const override { return version_; }
   uint32_t texelVersion() const override { return ground_.version(); }
 
-  // Of bounced light.
+  // Irradiance by bounced light, by texel [W/m²].
   const std::vector<vec3>& irradiance() const override { return irradiance_; }
   const std::vector<vec3>& reflected() const override { return radiosity_; }
   const TexelSet& texels() const override { return ground_.set(); }
@@ -63,13 +63,13 @@ class TexelRadiosity final : public TexelIrradiance {
                      uint32_t triangle, bool isBack, const vec3& position) const override {
     return ground_.blendAt(scene, rays, object, triangle, isBack, position);
   }
-  // By sender, what the light of such a point is the sum of. None while links are found, and until
-  // all changes are taken.
+  // The contributions to the bounced light of a point (world space), by sender. None while links
+  // are incomplete or changes are pending.
   std::optional<std::vector<TexelSender>> sendersTo(const RenderScene& scene, const RayCaster& rays,
                                                     uint32_t object, uint32_t triangle, bool isBack,
                                                     const vec3& position) const;
 
-  // Of the last update.
+  // Work of the last update.
   struct Counts {
     uint64_t rays = 0;
     uint64_t links = 0;  // segments tested for links
@@ -94,17 +94,18 @@ class TexelRadiosity final : public TexelIrradiance {
   SceneTexels ground_;
   TexelTree tree_;
   SurfaceDepths depths_;
-  bool hasLookedOnDisk_ = false;        // for these depths
-  std::optional<ContentKey> depthKey_;  // of depths that are to be saved
+  bool hasLookedOnDisk_ = false;        // whether the cache was searched for these depths
+  std::optional<ContentKey> depthKey_;  // key of depths that will be saved
   TexelLinks links_;
   TexelLight light_;
-  // When links were complete, and what moved since then.
+  // Places when links were complete, and the objects that moved since then.
   PlacedTexels placesOfLinks_;
   std::set<uint32_t> movedSinceLinks_;
   std::vector<vec3> albedo_;      // by texel
   std::vector<vec3> irradiance_;  // by texel
-  std::vector<vec3> radiosity_;   // by texel, of the last bounce: the links turn it to irradiance_
-  bool isLit_ = false;            // irradiance_ is that of now
+  std::vector<vec3> radiosity_;   // by texel, before the last bounce: gathering it along the links
+                                  // gives irradiance_
+  bool isLit_ = false;            // irradiance_ is up to date
   uint32_t version_ = 0;
   Counts counts_;
 };

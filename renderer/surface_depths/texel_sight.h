@@ -7,7 +7,7 @@
 namespace lamplighter {
 
 // Share of the visibility tests of a texel's links in which depths and rays disagree, from 0 to 1.
-// Up to `most` tests, evenly spread over all of them, with a ray each. `linkError`: as in
+// Uses up to `most` tests, evenly spread over all of them, with one ray each. `linkError`: as in
 // TexelLinks::restart(). The depths must be complete.
 float queryErrorOf(uint32_t texel, const RenderScene& scene, const RayCaster& rays,
                    const TexelSet& texels, const TexelTree& tree, const SurfaceDepths& depths,

@@ -1,4 +1,5 @@
-// Directions around a point as pixels: a cube map, or an octahedral map of the sphere.
+// Mapping of the directions around a point to pixels: a cube map, or an octahedral map of the
+// sphere.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +19,13 @@ struct DepthMapLayout {
     const auto side = static_cast<uint32_t>(resolution);
     return (kind == DepthMapKind::cube ? 6 : 1) * side * side;
   }
-  // Of a direction of any length but 0, in world space.
+  // The pixel of a direction in world space, of any length except 0.
   uint32_t pixelOf(const vec3& direction) const;
-  // Of the centre of a pixel; unit.
+  // The direction of the centre of a pixel; unit length.
   vec3 directionOf(uint32_t pixel) const { return glm::normalize(pointOf(pixel)); }
-  // About that of a pixel [sr]; the sum over all pixels is 4π within 0.2%.
+  // Approximate solid angle of a pixel [sr]; the sum over all pixels is 4π within 0.2%.
   float solidAngleOf(uint32_t pixel) const;
-  // About the largest angle between the centre and a corner of a pixel [rad].
+  // Approximate maximum angle between the centre and a corner of a pixel [rad].
   float halfWidth() const;
 
  private:

@@ -1,4 +1,4 @@
-// Light that texels of the surface keep, whatever carries it there.
+// Interface to irradiance that is stored at texels, independent of the method that computes it.
 #pragma once
 
 #include <vector>
@@ -11,20 +11,21 @@ namespace lamplighter {
 class TexelIrradiance {
  public:
   virtual ~TexelIrradiance() = default;
-  // By texel [W/m²]; empty before it is found for the first time.
+  // By texel [W/m²]; empty before the first computation.
   virtual const std::vector<vec3>& irradiance() const = 0;
-  // What each texel reflects to glossy surfaces that mirror it, which is a bounce, too [W/m²].
+  // Radiosity of each texel as seen in glossy surfaces, where the mirror counts as a bounce [W/m²].
   virtual const std::vector<vec3>& reflected() const = 0;
-  // The sky that they mirror [W/(m² sr)]; 0 if it is shown by something else.
+  // Radiance of the sky as seen in glossy surfaces [W/(m² sr)]; 0 if something else adds it.
   virtual vec3 skyTowards(const vec3&) const { return vec3(0.0f); }
   virtual const TexelSet& texels() const = 0;
-  // Whether the light is that of a fresh start.
+  // Whether the light is complete: equal to that of a new start.
   virtual bool isDone() const = 0;
-  // Differs if irradiance() differs.
+  // Changes when irradiance() changes.
   virtual uint32_t version() const = 0;
-  // Differs if the texels are other ones, or others of them are buried.
+  // Changes when the texels, or which of them are buried, change.
   virtual uint32_t texelVersion() const = 0;
-  // The texels around a point of a triangle (world space) that it sees. No weights: it has none.
+  // The texels around a point of a triangle (world space) that are visible from it, with weights.
+  // All weights are 0 if there are none.
   virtual TexelBlend blendAt(const RenderScene& scene, const RayCaster& rays, uint32_t object,
                              uint32_t triangle, bool isBack, const vec3& position) const = 0;
 };

@@ -1,4 +1,4 @@
-// What moves of objects change for texels and for the segments between them.
+// The effect of moved objects on texels and on the segments between them.
 #pragma once
 
 #include <algorithm>
@@ -13,23 +13,22 @@ namespace lamplighter {
 
 struct TexelMoves {
   static constexpr uint32_t kNew = 0xffffffffu;
-  // The number that each present texel had before. kNew: there was none at its place, or it has
-  // been buried since, or is no longer.
+  // By current texel: its old number. kNew: there was no texel at this position, or it became or
+  // stopped being buried.
   std::vector<uint32_t> formerTexel;
-  // The same, also of texels that moved with their object.
+  // The same, but also for texels that moved with their object.
   std::vector<uint32_t> sameTexel;
-  // Bounds of the objects that moved, came or went: where they were and where they are (world
-  // space).
+  // Bounds of the objects that moved, were added or removed, before and after (world space).
   std::vector<Bounds> boxes;
 
-  // Whether what the ray sees may be something else now.
+  // Whether the hit of the ray may have changed.
   bool meets(const Ray& ray) const {
     return std::ranges::any_of(boxes, [&](const Bounds& b) { return mayTouch(ray, b); });
   }
   bool isKept(size_t texel) const {
     return texel < formerTexel.size() && formerTexel[texel] != kNew;
   }
-  // Values by former texel, as values by present texel, 0 for those of new objects.
+  // Maps values by old texel to values by current texel; 0 for texels without an old number.
   std::vector<vec3> carried(const std::vector<vec3>& before) const {
     std::vector<vec3> now(sameTexel.size(), vec3(0.0f));
     for (size_t t = 0; t < now.size(); ++t)
@@ -38,12 +37,12 @@ struct TexelMoves {
   }
 };
 
-// Where objects and texels were at some time.
+// Positions of objects and texels at one point in time.
 class PlacedTexels {
  public:
   PlacedTexels() = default;
   PlacedTexels(const RenderScene& scene, const TexelSet& texels);
-  // `moved`: the objects that moved, came or went since then.
+  // `moved`: the objects that moved, were added or removed since then.
   TexelMoves movesTo(const RenderScene& scene, const TexelSet& texels,
                      const std::set<uint32_t>& moved) const;
 

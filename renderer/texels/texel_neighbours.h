@@ -1,5 +1,5 @@
-// Which texels a point is between: surfaces that stand on a chart, such as a wall on a floor, keep
-// the light of one side from the other.
+// Visibility between neighbouring texels: a surface that stands on a chart, such as a wall on a
+// floor, separates the light of its two sides.
 #pragma once
 
 #include <vector>
@@ -11,16 +11,16 @@ namespace lamplighter {
 
 class TexelNeighbours {
  public:
-  // Traces up to four rays a texel, to its neighbours in the rectangle of its object. Returns their
-  // number.
+  // Traces up to four rays per texel, to its neighbours in the rectangle of its object. Returns the
+  // number of rays.
   uint64_t find(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels);
-  // Leaves out texels that the point (world space) does not see, unless it sees none of them.
-  // Traces rays only where some neighbours do not see each other.
+  // Removes texels from `blend` that are not visible from the point (world space), unless none is
+  // visible. Traces rays only where neighbours do not see each other.
   void keepVisible(const RenderScene& scene, const RayCaster& rays, const TexelSet& texels,
                    const vec3& position, TexelBlend& blend) const;
 
  private:
-  std::vector<uint8_t> isSplit_;  // by texel: some neighbour is buried, or it does not see it
+  std::vector<uint8_t> isSplit_;  // by texel: a neighbour is buried or not visible from it
 };
 
 }  // namespace lamplighter

@@ -1,5 +1,5 @@
 // A coherent order of the texels of an object, so that the depth maps of consecutive texels are
-// alike (paper 3, section 3.2.3).
+// similar (paper 3, section 3.2.3).
 #pragma once
 
 #include <cstdint>

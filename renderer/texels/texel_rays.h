@@ -1,4 +1,4 @@
-// What texels see, by rays. Area lights block no bounced light, so that they can move freely.
+// Visibility of texels by rays. Area lights block no bounced light, so that they can move freely.
 #pragma once
 
 #include "renderer/raycast/ray_caster.h"
@@ -6,9 +6,10 @@
 
 namespace lamplighter {
 
-// Whether anything but area lights is in the way of a ray.
+// Whether anything except area lights blocks a ray.
 bool blocksBouncedLight(const RenderScene& scene, const RayCaster& rays, Ray ray);
-// Whether nothing is between the texel and a point of a surface. False below the texel.
+// Whether nothing blocks the line between the texel and a point of a surface (world space). False
+// below the horizon of the texel.
 bool seesByRay(const RenderScene& scene, const RayCaster& rays, const SurfaceTexel& texel,
                const vec3& point);
 

@@ -14,22 +14,22 @@
 namespace lamplighter {
 namespace {
 
-// Places by which the part of a texel that a triangle covers is found, along a side.
+// Sample points along a side of a texel that estimate the area covered by a triangle.
 constexpr int kPlaces = 4;
 // Texels around a point, to both sides, of which the nearest is taken if it lies between none.
 constexpr int kReach = kGutter + 1;
 
-// Rays by which buried texels are found, of which more than one in so many hit a back face within
-// so many sides of the texel.
+// Rays that find buried texels: a texel is buried if more than one in this number hits a back face
+// within this many sides of the texel.
 constexpr int kBuriedRays = 32, kBuriedShare = 8;
 constexpr float kBuriedNear = 4.0f;
 constexpr uint32_t kBuriedSet = 0x8b;
 
-// A place of a texel on a triangle.
+// The part of a texel on a triangle.
 struct Covered {
   vec2 at;  // [texels]
   SurfacePlace place;
-  float area = 0.0f;  // that it stands for [m²]
+  float area = 0.0f;  // area that it represents [m²]
 };
 
 float crossOf(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
@@ -117,7 +117,7 @@ SurfaceTexel texelOf(const RenderScene& scene, uint32_t object, const ObjectAtla
     mean += c.at / static_cast<float>(places.size());
     texel.area += c.area;
   }
-  // The place nearest to the mean, or the mean itself where it lies on a triangle.
+  // The sample point nearest to the mean, or the mean itself if it lies on a triangle.
   texel.place = std::ranges::min_element(places, {}, [&](const Covered& c) {
                   return glm::distance(c.at, mean);
                 })->place;

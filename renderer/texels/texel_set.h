@@ -1,4 +1,4 @@
-// The surface of a scene as texels: patches of about one size in the charts of each object (paper
+// The surface of a scene as texels: squares of about equal size in the charts of each object (paper
 // 3, "Coherent surface shadow maps", section 3.2.3: the atlas).
 #pragma once
 
@@ -17,10 +17,10 @@ struct SurfaceTexel {
   uint32_t chart = 0;  // of the object
   glm::ivec2 at{0};    // in the rectangle of the object
   SurfacePlace place;  // of the position
-  // Places that are spread over its area, for the mean of what varies on the surface.
+  // Points spread over its area, for means of properties that vary on the surface.
   std::array<SurfacePlace, 4> spread;
   SurfaceSpot spot;          // where light arrives
-  std::array<vec3, 2> half;  // half the sides of a rectangle in its plane, with its area
+  std::array<vec3, 2> half;  // half edge vectors of a rectangle in its plane, of equal area
   float area = 0.0f;         // [m²]
 
   // That rectangle, a square inside of a chart; counter-clockwise as seen from the front.
@@ -31,12 +31,13 @@ struct SurfaceTexel {
   }
 };
 
-// For random numbers: the same wherever the texel is in a list.
+// Key for random numbers, independent of the index of the texel.
 uint32_t seedOf(const SurfaceTexel& texel);
 
-// In which order the texels of an object are numbered. Inside of a chart: rows in turn to the right
-// and to the left, or along the border and inwards; then the chart nearest to where the last one
-// ended. greedy: always the nearest texel, whatever its chart (paper 3, section 3.2.3).
+// Order in which the texels of an object are numbered. Within a chart, zigzag: rows alternately to
+// the right and to the left; spiral: along the border and inwards; the next chart is the one
+// nearest to the end of the last. greedy: always the nearest texel, in any chart (paper 3, section
+// 3.2.3).
 enum class TexelOrder : uint8_t { zigzag, spiral, greedy };
 
 // A point of the surface between up to four texels.
@@ -54,11 +55,11 @@ class TexelSet {
   static constexpr uint32_t kNone = 0xffffffffu;
 
   TexelSet() = default;
-  // Of the objects that have an atlas: their front, and their back if their material has two
-  // sides.
+  // Builds the texels of all objects that have an atlas: of their front, and of their back if the
+  // material is double-sided.
   TexelSet(const RenderScene& scene, std::span<const ObjectAtlas> atlases, TexelOrder order);
 
-  // One side of an object. Consecutive numbers.
+  // One side of an object; its texels have consecutive numbers.
   struct Part {
     uint32_t first = 0, count = 0;
     glm::ivec2 size{0};
@@ -68,15 +69,16 @@ class TexelSet {
   size_t size() const { return texels_.size(); }
   const SurfaceTexel& operator[](size_t texel) const { return texels_[texel]; }
 
-  // Finds which texels lie inside of an object or behind a wall: several rays of them hit, close
-  // by, back faces that no camera sees. Returns the number of rays.
+  // Finds buried texels, which lie inside an object or behind a wall: several of their rays hit
+  // nearby back faces that are not visible from outside. Returns the number of rays.
   uint64_t findBuried(const RenderScene& scene, const RayCaster& rays);
   bool isBuried(size_t texel) const { return !isBuried_.empty() && isBuried_[texel] != 0; }
 
-  // At a point of a side of an object, given in texels of its rectangle; kNone if there is none.
+  // The texel at a point of a side of an object, given in texels of its rectangle; kNone if there
+  // is none.
   uint32_t texelAt(uint32_t object, bool isBack, const vec2& texels) const;
-  // Bilinear at a point of a side of an object, given in texels of its rectangle. Texels that the
-  // surface does not have are left out, and buried ones if there are others.
+  // Bilinear weights at a point of a side of an object, given in texels of its rectangle. Missing
+  // texels are left out, and buried ones if there are others.
   TexelBlend blendAt(uint32_t object, bool isBack, const vec2& texels) const;
 
  private:
