@@ -28,7 +28,7 @@ struct Ball {
   }
 };
 
-// Whether the hull of two spheres may touch a third one. Conservative.
+// Whether the convex hull of two spheres may touch a third one. Conservative.
 inline bool mayBeBetween(const Ball& a, const Ball& b, const Ball& between) {
   const vec3 axis = b.centre - a.centre;
   const float length2 = glm::dot(axis, axis);

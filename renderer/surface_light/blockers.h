@@ -1,4 +1,4 @@
-// The triangles that may stand between a point and a flat light.
+// The triangles that may block the light of a flat light at a point.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@ namespace lamplighter {
 
 class Blockers {
  public:
-  // Finds the triangles again of all objects, or of those that moved.
+  // Collects the triangles of all objects (`isNew`), or only of those that moved.
   void update(const RenderScene& scene, bool isNew, std::span<const uint32_t> movedObjects);
 
-  enum class Found { none, some, tooMany };  // tooMany: rays decide
-  // The triangles that may hide places of the light from x, above the plane of its unit normal n.
-  // Conservative: `none` means that nothing is between. Surfaces with alpha masks, and more than
-  // kMost triangles, are too many.
+  enum class Found { none, some, tooMany };  // tooMany: use rays instead
+  // The triangles that may hide parts of the light from x, above the plane with unit normal n.
+  // Conservative: `none` means that nothing blocks the light. Returns tooMany for surfaces with
+  // alpha masks and for more than `most` triangles.
   static constexpr size_t kMost = 16;
   Found find(const RenderScene& scene, const FlatLight& light, const vec3& x, const vec3& n,
              std::vector<std::array<vec3, 3>>& out, size_t most = kMost) const;
@@ -29,12 +29,12 @@ class Blockers {
   BoundsTree objects_;
 };
 
-// The share of the light of a flat light that a spot sees, found by a mask.
+// The visible share of a flat light from a spot, computed with a bit mask.
 struct MaskedShare {
   float share = 1.0f;
-  bool isOpen = true;  // nothing is between
+  bool isOpen = true;  // nothing blocks the light
 };
-// None if there are too many blockers, so that rays must decide.
+// Returns none if there are too many blockers; use rays instead.
 std::optional<MaskedShare> maskedShare(const RenderScene& scene, const Blockers& blockers,
                                        const FlatLight& light, const SurfaceSpot& spot,
                                        size_t mostBlockers = Blockers::kMost);

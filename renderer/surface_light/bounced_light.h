@@ -1,4 +1,4 @@
-// Light that bounces between elements along the links: iterations of Jacobi, without rays.
+// Light that bounces between elements along the links: Jacobi iterations, without rays.
 #pragma once
 
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace lamplighter {
 
-// Bounced light, and what comes straight from the sky, without its suns.
+// Bounced light, and direct light of the sky without suns.
 enum class SurfaceLightPart { bounced, sky, both };
 
-// What the light of the elements depends on besides the links. By element or by sample.
+// Input of the bounces in addition to the links, by element or by sample.
 struct SurfaceState {
   std::vector<vec3> albedo;  // by element: ρ, its mean
-  // By element and corner: irradiance of the lights without the sky [W/m²].
+  // By element and corner: direct irradiance of the lights without the sky [W/m²].
   std::vector<vec3> direct;
   std::vector<vec3> sky;         // by sample: irradiance of the sky [W/m²]
   std::vector<uint8_t> isMixed;  // by element: whether a part of it is buried or behind a wall
@@ -26,14 +26,14 @@ struct SurfaceState {
 // that size.
 using ReflectedLight = std::vector<float>;
 
-// The sum of the light at the ends of links. Divided by their number it is irradiance [W/m²].
+// The sum of the light at the hits of links. Divided by the number of links it is irradiance
+// [W/m²].
 vec3 gatheredLight(std::span<const GatherLink> links, const ReflectedLight& reflected);
 
-// Irradiance [W/m²] by bounced light: what other surfaces reflect after 1 to `bounces` bounces.
-// Buried samples have the mean of their neighbours. `most`: links of a sample that are used for the
-// last bounce; earlier ones use a quarter, because their noise is averaged once more. `out`: the
-// part that is shown, by value (SurfaceMesh::values()). `reflected`: what elements reflect before
-// the last bounce.
+// Computes the irradiance [W/m²] by bounced light of 1 to `bounces` bounces. Buried samples get the
+// mean of their neighbours. `most`: links of a sample that the last bounce uses; earlier bounces
+// use a quarter, because their noise is averaged again. `out`: the part `shown`, by value
+// (SurfaceMesh::values()). `reflected`: light that elements reflect before the last bounce.
 void bounceLight(const SurfaceMesh& mesh, const GatherLinks& links, const SurfaceState& state,
                  int bounces, int most, SurfaceLightPart shown, std::vector<vec3>& out,
                  ReflectedLight& reflected);

@@ -1,5 +1,5 @@
-// The direct light of each emitter on each element, per unit of its brightness: a number per
-// emitter, so that brightness and colour need no ray.
+// The direct light of each emitter on each element, per unit of its brightness, so that edits of
+// brightness and colour trace no rays.
 #pragma once
 
 #include <optional>
@@ -23,32 +23,32 @@ class DirectFactors {
     // corners.
     std::span<const uint8_t> isMixed;
     uint32_t seed;
-    int mask;  // places along a side of a flat light whose visibility is found exactly; 0: by rays
+    int mask;  // side of the bit mask for exact visibility of flat lights; 0: rays
   };
-  // After changes of the scene. `isNewMesh`: all elements are other ones. `movedObjects`: those
-  // that moved or have other elements. `boxes`: bounds of what moved, before and after. Only what
-  // may differ is computed again, up to about `mostRays`; the rest keeps its old light, or has that
-  // of an element near it, until later calls. Returns the number of rays.
+  // Call after changes of the scene. `isNewMesh`: all elements are new. `movedObjects`: objects
+  // that moved or have new elements. `boxes`: bounds of moved objects, before and after. Computes
+  // only light that may have changed, with up to about `mostRays` rays; until later calls the other
+  // elements keep their old light, or use that of a nearby element. Returns the number of rays.
   uint64_t update(const Scene& now, bool isNewMesh, std::span<const uint32_t> movedObjects,
                   std::span<const Bounds> boxes, uint64_t mostRays);
   bool isDone() const { return staleLeaves_ == 0; }
-  // Whether the last update changed anything but the brightness of lights.
+  // Whether the last update changed anything except the brightness of lights.
   bool changed() const { return changed_; }
-  // Irradiance at the corners of the elements with the present brightness of the lights: three for
-  // each element [W/m²].
+  // Irradiance at the corners of the elements with the current brightness of the lights: three
+  // values per element [W/m²].
   void sum(const LightSet& lights, std::vector<vec3>& out) const;
 
-  // Of them, how many by masks and how many where nothing is between, without any ray.
+  // Factors of the last update that used masks, and those without blockers, which need no rays.
   size_t masked() const { return masked_; }
   size_t open() const { return open_; }
   size_t factors() const { return computed_; }  // computed in the last update
   size_t bytes() const;
 
  private:
-  // The factors of one emitter, by element and corner; of each channel if they differ.
+  // The factors of one emitter, by element and corner; three channels if isColoured.
   struct Column {
     VplId id;
-    RenderPunctual light;  // without its brightness; of punctual lights
+    RenderPunctual light;  // for punctual lights; without brightness
     bool isColoured = false;
     std::vector<float> factors;
   };
@@ -76,10 +76,10 @@ class DirectFactors {
 
   std::vector<Column> columns_;  // by emitter
   std::vector<uint8_t> wasMixed_;
-  std::vector<Ball> balls_;      // by element: around it
+  std::vector<Ball> balls_;      // by element: its bounding sphere
   std::vector<uint64_t> stale_;  // by element
   size_t words_ = 0, staleLeaves_ = 0;
-  uint32_t next_ = 0;  // the element at which the next call goes on
+  uint32_t next_ = 0;  // the element at which the next call continues
   bool changed_ = false;
   Sky sky_;  // at unit brightness
   int mask_ = 0;

@@ -1,4 +1,4 @@
-// The direct light that one emitter gives to an element, per unit of its brightness.
+// The direct light of one emitter on an element, per unit of its brightness.
 #pragma once
 
 #include <span>
@@ -16,10 +16,10 @@ namespace lamplighter {
 struct LightRay {
   Ray ray;
   vec3 irradiance{0.0f};  // [W/m²] of a white light, per unit of Emitter::brightness()
-  uint32_t spot = 0;      // on which it falls
+  uint32_t spot = 0;      // index of the receiving spot
 };
 
-// To tell whether anything but the brightness of a light changed.
+// The light with a fixed brightness, to detect whether anything else changed.
 RenderPunctual withoutBrightness(RenderPunctual light);
 
 class EmitterFactor {
@@ -27,19 +27,21 @@ class EmitterFactor {
   EmitterFactor(const RenderScene& scene, const LightSet& lights, size_t emitter, const VplId& id,
                 uint32_t seed);
 
-  // Whether its light has another colour in each place, so that it needs a factor per channel.
+  // Whether the colour of its light varies over the light, so that it needs a factor per channel.
   bool isColoured() const;
-  // False for the sky without its suns, whose light gather rays find.
+  // False for the sky without suns, whose light is found by gather rays.
   bool isSampled() const { return light_.kind != EmitterKind::sky || light_.skySun > 0; }
-  // Its places, if it is flat, has one colour and `side` is not 0 (visible_places.h).
+  // The light as a flat light with a mask of side `side` (visible_places.h). None if it is not
+  // flat, varies in colour, or `side` is 0.
   std::optional<FlatLight> flat(int side) const;
   bool hasClosedForm() const { return !corners_.empty(); }
-  // The light on a spot if nothing is between, of a light with a closed form; 0 below the surface.
+  // The irradiance of a spot without occlusion, for a light with a closed form; 0 below the
+  // surface.
   float unshadowed(const SurfaceSpot& spot) const;
-  // Where it is; empty: far away.
+  // Bounds of the light; empty for distant lights.
   const Bounds& bounds() const { return bounds_; }
-  // One ray for each spot that it may light. `key`: identifies the element, so that neighbours use
-  // other points of the light.
+  // Appends one ray for each spot that the light may reach. `key`: identifies the element, so that
+  // neighbouring elements sample different points of the light.
   void raysTo(std::span<const SurfaceSpot> spots, uint32_t leftOutBy, uint32_t key,
               std::vector<LightRay>& out) const;
 
@@ -54,7 +56,8 @@ class EmitterFactor {
   int emitter_;
   uint32_t seed_;
   Bounds bounds_;
-  std::vector<vec3> corners_;  // of the triangles of a simple or flat surface, for its closed form
+  std::vector<vec3>
+      corners_;  // corners of the triangles of a simple or flat surface, for the closed form
 };
 
 }  // namespace lamplighter

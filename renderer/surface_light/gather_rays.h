@@ -1,5 +1,4 @@
-// Rays that gather light at a point of a surface: what each of them sees, and which of them an edit
-// may have changed.
+// Gather rays at a point of a surface: their hits, and which of them an edit may have changed.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +16,17 @@ struct GatherScene {
   const CutLeaves& cuts;
 };
 
-// What a ray from a surface sees. No hit: the sky.
+// The link for the hit of a ray from a surface. No hit: the sky.
 GatherLink linkTo(const GatherScene& scene, const Hit& hit, const Ray& ray);
 
-// Traces the rays whose bit in `wanted` is set and keeps what they see in `links`. Ray i leaves
-// from spot i modulo their number. Returns the number of rays.
+// Traces the rays whose bit in `wanted` is set and stores their hits in `links`. Ray i starts at
+// spot i modulo the number of spots. Returns the number of rays.
 uint64_t traceGatherRays(const GatherScene& scene, std::span<const SurfaceSpot> spots,
                          std::span<const vec3> directions, std::span<const uint64_t> wanted,
                          std::span<GatherLink> links);
 
-// Marks the rays first, first + step, ... that touch one of the boxes, or end on an element that a
-// wall may cut otherwise than before (CutLeaves::mayDiffer).
+// Marks the rays first, first + step, ... that touch one of the boxes, or end on an element whose
+// cut by a wall may have changed (CutLeaves::mayDiffer).
 void markTouched(const GatherScene& scene, const SurfaceSpot& spot, std::span<const Bounds> boxes,
                  std::span<const vec3> directions, std::span<const GatherLink> links, size_t first,
                  size_t step, std::span<uint64_t> marks);

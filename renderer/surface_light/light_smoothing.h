@@ -1,4 +1,4 @@
-// Takes the noise of gather rays out of light at the samples, and replaces what buried samples see.
+// Filters the noise of gather rays at the samples, and replaces the light of buried samples.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,18 @@
 
 namespace lamplighter {
 
-// Light is averaged over samples that share an element, where all that they see is far away
-// compared with their distance: there irradiance varies little. In corners and at contacts it is
-// kept. Buried samples get the mean of their neighbours that are not, from one to the next.
+// Light is averaged over samples that share an element if everything that they see is far away
+// compared with their distance, because irradiance varies little there. In corners and at contacts
+// it is not filtered. Buried samples get the mean of their neighbours that are not buried,
+// propagated from sample to sample.
 class LightSmoothing {
  public:
-  // After links of these samples changed. `isNewMesh`: all elements are other ones.
+  // Call after links of these samples changed. `isNewMesh`: all elements are new.
   void update(const RenderScene& scene, const SurfaceMesh& mesh, const GatherLinks& links,
               std::span<const uint32_t> changed, bool isNewMesh);
 
-  // `values`: by sample; more values may follow. The fewer links are known, the more it averages.
+  // `values`: by sample; more values may follow. The fewer links are known, the stronger the
+  // filter.
   void apply(const SurfaceMesh& mesh, std::vector<vec3>& values) const;
   // The same for values of the corners of elements, within each element.
   void fillCorners(const SurfaceMesh& mesh, std::vector<vec3>& corners) const;

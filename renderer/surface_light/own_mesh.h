@@ -1,5 +1,5 @@
-// The triangles of an object without its rotation and translation, and samples known by their
-// place.
+// The triangles of an object without its rotation and translation, and a lookup of samples by
+// position.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,8 @@ class OwnMesh {
   struct Vertex {
     vec3 position, normal;  // the normal is a unit vector on the given side
   };
-  // Of a corner of a triangle. Normals on the wrong side are replaced by that of the triangle.
+  // The vertex at a corner of a triangle. Normals on the wrong side are replaced by that of the
+  // triangle.
   Vertex vertex(uint32_t triangle, uint32_t corner, bool isBack) const;
   uint32_t corner(uint32_t triangle, uint32_t corner) const {
     return scene_.indices[object_.firstIndex + 3 * triangle + corner] - object_.firstVertex;
@@ -46,11 +47,11 @@ class OwnMesh {
   Bounds bounds_;
 };
 
-// Numbers samples: one for each place and normal. A table with open addressing: the shapes of a
-// level have hundreds of thousands.
+// Assigns numbers to samples: one for each position and normal. A hash table with open addressing,
+// because a level has hundreds of thousands of samples.
 class SampleKeys {
  public:
-  // The number of the sample there, and whether it is new.
+  // The number of the sample at a position and normal, and whether it is new.
   std::pair<uint32_t, bool> find(const vec3& position, const vec3& normal) {
     if (2 * entries_.size() >= slots_.size()) grow();
     const Key key{position, normal};
@@ -60,7 +61,7 @@ class SampleKeys {
     entries_.push_back({key, next_});
     return {next_++, true};
   }
-  // The same if there is one, otherwise kNone.
+  // The number if there is such a sample, otherwise kNone.
   int known(const vec3& position, const vec3& normal) const {
     if (slots_.empty()) return kNone;
     const uint32_t slot = slots_[slotOf({position, normal})];
@@ -80,7 +81,7 @@ class SampleKeys {
   static constexpr uint32_t kFree = 0xffffffffu;
 
   static uint32_t hashOf(const Key& k) {
-    // Adding 0 makes a negative zero positive: both compare equal.
+    // Adding 0 makes a negative zero positive, because both compare equal.
     const auto word = [](const vec3& v, uint32_t seed) {
       return hash4(std::bit_cast<uint32_t>(v.x + 0.0f), std::bit_cast<uint32_t>(v.y + 0.0f),
                    std::bit_cast<uint32_t>(v.z + 0.0f), seed);

@@ -9,7 +9,7 @@
 namespace lamplighter {
 
 // Adds clusters of about `size` [m] for these triangles, on each side that the shape has, and the
-// values at their vertices. A vertex that has a sample of the trees takes that.
+// values at their vertices. A vertex that has a sample of the trees uses that.
 void addClusters(const OwnMesh& mesh, std::span<const uint32_t> triangles, float size,
                  SampleKeys& keys, SurfaceShape& out);
 

@@ -1,4 +1,4 @@
-// The elements of light of all objects of a scene, at their present places.
+// The light elements of all objects of a scene, at their current positions.
 #pragma once
 
 #include <map>
@@ -14,8 +14,9 @@
 namespace lamplighter {
 
 struct SurfaceMeshOptions {
-  float edge = 0.25f;           // longest edge of an element where memory allows it [m]
-  size_t mostSamples = 131072;  // edges grow by √2 until there are no more samples than this
+  float edge = 0.25f;  // longest edge of an element, if memory allows it [m]
+  size_t mostSamples =
+      131072;  // edges grow by factors of √2 until there are at most this many samples
   bool operator==(const SurfaceMeshOptions&) const = default;
 };
 
@@ -23,28 +24,28 @@ struct SurfaceMeshOptions {
 struct SurfaceSpot {
   vec3 position{0.0f};
   vec3 normal{0.0f};           // smooth; no normal map
-  vec3 geometricNormal{0.0f};  // of the triangle
-  uint32_t turn = 0;           // random bits of the place; they turn gatherFrame()
+  vec3 geometricNormal{0.0f};  // normal of the triangle
+  uint32_t turn = 0;           // random bits by position that rotate gatherFrame()
 
   vec3 rayOrigin() const { return position + rayEpsilon(position) * geometricNormal; }
 };
 
-// What an update of the mesh left. Elements of all other objects keep their numbers and places in
-// the space of the object.
+// Changes by an update of the mesh. Elements of all other objects keep their numbers and their
+// positions in object space.
 struct SurfaceMeshChange {
-  bool isNew = false;  // all elements are other ones
-  // Objects that have other elements, or that rays hit otherwise than before; ascending.
+  bool isNew = false;  // all elements are new
+  // Objects that have new elements, or that rays hit differently; ascending.
   std::vector<uint32_t> objects;
-  std::vector<Bounds> boxes;  // where they are and were, if they did not come or go
+  std::vector<Bounds> boxes;  // their bounds before and after, if they were not added or removed
 };
 
 class SurfaceMesh {
  public:
-  // Shapes of unchanged meshes are kept.
+  // Updates the elements. Shapes of unchanged meshes are kept.
   SurfaceMeshChange update(const RenderScene& scene, const RenderSceneChanges& changes,
                            const SurfaceMeshOptions& options);
 
-  // Numbers of the elements of one object: consecutive.
+  // The elements of one object; their numbers are consecutive.
   struct Part {
     std::shared_ptr<const SurfaceShape> shape;  // null: rays do not hit it
     uint32_t firstSample = 0, firstLeaf = 0, firstBlend = 0, firstNeighbour = 0;
@@ -57,28 +58,28 @@ class SurfaceMesh {
   size_t neighbours() const { return neighbours_.end(); }
   // Values are the samples, then the blends.
   size_t values() const { return samples() + blends_.end(); }
-  float edge() const { return edge_; }  // in use [m]
+  float edge() const { return edge_; }  // longest edge in use [m]
   size_t usedSamples() const { return usedSamples_; }
   size_t usedLeaves() const { return usedLeaves_; }
 
   static constexpr uint32_t kUnused = 0xffffffffu;
   uint32_t objectOfSample(uint32_t sample) const { return objectOfSample_[sample]; }
   uint32_t objectOfLeaf(uint32_t leaf) const { return objectOfLeaf_[leaf]; }
-  // The places of an element.
+  // The points of a sample or an element.
   std::span<const SurfacePlace> placesOfSample(uint32_t sample) const;
   std::span<const SurfacePlace> placesOfLeaf(uint32_t leaf) const;
   std::array<uint32_t, 3> samplesOfLeaf(uint32_t leaf) const;
   bool isCluster(uint32_t leaf) const;
 
-  // The light at a point of a triangle. False where none is kept: on back faces of objects without
-  // backs.
+  // The values for the light at a point of a triangle. False if no light is stored: on back faces
+  // of single-sided objects.
   bool find(const RenderScene& scene, uint32_t object, uint32_t triangle, bool isBack,
             const vec2& weights, MeshPoint& out) const;
 
   size_t bytes() const;
 
  private:
-  // What decides about the elements of an object, and what rays see of it.
+  // The properties of an object that affect its elements and ray hits.
   struct Identity {
     bool hasShape = false, hasBacks = false;
     ShapeKey key;
@@ -88,7 +89,7 @@ class SurfaceMesh {
     bool operator==(const Identity&) const = default;
     static Identity of(const RenderScene& scene, uint32_t object);
   };
-  // What is found of an object once. Edges of level n are √2ⁿ times as long as those asked for.
+  // Cached properties of an object. Edges of level n are √2ⁿ times as long as requested.
   struct Known {
     float area = 0.0f, longest = 0.0f;          // [m²] and [m]
     std::map<int, size_t> samples;              // by level: with edges of levelEdge()
@@ -111,9 +112,9 @@ class SurfaceMesh {
   size_t usedSamples_ = 0, usedLeaves_ = 0;
 };
 
-// Where a place of an object is now.
+// The current position and normals of a point of an object (world space).
 SurfaceSpot spotAt(const RenderScene& scene, uint32_t object, const SurfacePlace& place);
-// ρ there, with textures; 0 in the holes of an alpha mask.
+// The diffuse albedo ρ at a point of an object, with textures; 0 in the holes of an alpha mask.
 vec3 albedoAt(const RenderScene& scene, uint32_t object, const SurfacePlace& place);
 
 }  // namespace lamplighter

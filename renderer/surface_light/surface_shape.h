@@ -1,10 +1,10 @@
-// Where light is kept on the surface of a mesh: a forest of divided triangles with samples at their
-// vertices, and clusters of triangles that are too small for that. It depends only on the shape, so
-// it is found once and stays while the object moves.
+// The places where light is stored on the surface of a mesh: a forest of divided triangles with
+// samples at their vertices, and clusters of triangles that are too small for that. It depends only
+// on the shape, so it is computed once and does not change while the object moves.
 //
 // The tree differs from that of the paper, where a triangle has four children or none: it is
-// divided only at its long edges. Long thin triangles thus get few elements, and no vertex ever
-// lies on an edge that is not divided, so that the light is continuous over edges by construction.
+// divided only at its long edges. Long thin triangles thus get few elements, and no vertex lies on
+// an undivided edge, so that the light is continuous across edges by construction.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace lamplighter {
 
-// A point of one side of the surface. Sides: triangle numbers from the number of triangles on mean
-// the backs of the triangles.
+// A point of one side of the surface. Triangle numbers that are not less than the number of
+// triangles mean back faces.
 struct SurfacePlace {
   uint32_t triangle = 0;
-  float u = 0.0f, v = 0.0f;  // weights of the triangle's second and third vertex
+  float u = 0.0f, v = 0.0f;  // weights of the second and third vertex of the triangle
 };
 
 // A range of SurfaceShape::places.
@@ -37,15 +37,15 @@ struct MeshPoint {
 struct SurfaceShape {
   // An element that reflects light.
   struct Leaf {
-    std::array<uint32_t, 3> samples{};  // at the corners; of a cluster: all the same
-    // Spread evenly over its area. Of a divided triangle: three, each near one corner.
+    std::array<uint32_t, 3> samples{};  // at the corners; for a cluster: all equal
+    // Points spread evenly over its area. For a divided triangle: three, each near one corner.
     PlaceRange places;
   };
   struct Node {
     uint32_t first = 0;    // a leaf, or the first of its consecutive children
     uint8_t division = 0;  // triangle_division.h; 0: a leaf
   };
-  // The light at a vertex of small triangles, from the clusters near it.
+  // The light at a vertex of small triangles: weighted sum of nearby clusters.
   struct Blend {
     std::array<uint32_t, 4> samples{};
     std::array<float, 4> weights{};  // the sum is 1
@@ -54,14 +54,15 @@ struct SurfaceShape {
   uint32_t triangles = 0, vertices = 0;
   bool hasBacks = false;
   std::vector<SurfacePlace> places;
-  std::vector<PlaceRange> samples;  // where irradiance is computed: the mean over its places
+  std::vector<PlaceRange> samples;  // each is the mean irradiance over its places
   std::vector<Leaf> leaves;
   std::vector<Node> nodes;
   std::vector<Blend> blends;
-  // By triangle, then by back: the root of its tree, or −1 − the leaf of its cluster.
+  // By triangle (front faces, then back faces): the root of its tree, or −1 − the leaf of its
+  // cluster.
   std::vector<int32_t> roots;
-  // By vertex, then by vertex seen from the back: the value at it. Values are the samples, then the
-  // blends. Only for vertices of triangles in clusters.
+  // By vertex (front side, then back side): its value. Values are the samples, then the blends.
+  // Only for vertices of triangles in clusters.
   std::vector<uint32_t> valueOfVertex;
   // Samples that share an element with each sample, ascending: those of sample s begin at
   // neighbours[neighbourStarts[s]].
@@ -73,19 +74,21 @@ struct SurfaceShape {
 
 struct SurfaceShapeOptions {
   float edge = 0.25f;     // longest edge of an element [m]
-  bool hasBacks = false;  // the light on back faces is kept, too
+  bool hasBacks = false;  // light is also stored on back faces
 };
 
 // Longest edge of the elements of an object whose longest side is given [m]: it has at most 128
 // edges.
 float shapeEdge(float longest, float edge);
 
-// The elements of an object's mesh in its own space: rotation and translation change nothing. Edges
-// are longer on objects of more than 128 edges.
+// Computes the elements of the mesh of an object in object space: independent of rotation and
+// translation. Edges are longer on objects that would have more than 128 edges along their longest
+// side.
 SurfaceShape findSurfaceShape(const RenderScene& scene, uint32_t object,
                               const SurfaceShapeOptions& options);
 
-// The light at a place. `corners`: the numbers of the triangle's vertices within the object.
+// The values for the light at a point. `corners`: the vertices of the triangle, as indices within
+// the object.
 MeshPoint pointOf(const SurfaceShape& shape, const SurfacePlace& place,
                   const std::array<uint32_t, 3>& corners);
 

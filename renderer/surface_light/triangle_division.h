@@ -1,6 +1,5 @@
-// How a triangle is divided at the midpoints of some of its edges. Whether an edge is divided must
-// depend on the edge alone: then both triangles at an edge divide it alike, and the mesh has no
-// T-vertices.
+// Division of a triangle at the midpoints of some of its edges. Whether an edge is divided must
+// depend only on the edge: then both triangles at the edge agree, and the mesh has no T-vertices.
 #pragma once
 
 #include <array>
@@ -14,14 +13,14 @@ namespace lamplighter {
 inline constexpr std::array<std::array<uint8_t, 2>, 3> kEdgeCorners{{{0, 1}, {1, 2}, {2, 0}}};
 
 struct TriangleDivision {
-  int count = 0;  // of children; 0: not divided
+  int count = 0;  // number of children; 0: not divided
   std::array<std::array<uint8_t, 3>, 4> children{};
-  // By child: from barycentric coordinates of the triangle to those of the child.
+  // By child: maps barycentric coordinates of the triangle to those of the child.
   std::array<mat3, 4> toChild{};
 };
 
-// `edges`: one bit per divided edge. With three, the triangle is quartered; with two, the rest
-// beside the cut corner is divided along one of its diagonals (`diagonal`: which).
+// `edges`: one bit per divided edge. Three divided edges: four triangles. Two: the quadrilateral
+// beside the cut corner is divided along a diagonal (`diagonal`: which one).
 inline constexpr int kDivisions = 16;
 constexpr int divisionOf(int edges, bool diagonal) { return edges + (diagonal ? 8 : 0); }
 const TriangleDivision& triangleDivision(int division);

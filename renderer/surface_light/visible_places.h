@@ -1,4 +1,4 @@
-// Which places of a flat light a point sees: blockers are drawn into a bit mask on the light, as
+// Visibility of a flat light from a point: blockers are rasterised into a bit mask on the light;
 // the paper draws them into a picture seen from the point.
 #pragma once
 
@@ -19,10 +19,10 @@ struct FlatLight {
   int side = kMostSide;         // a multiple of 8
   vec3 origin{0.0f};            // a corner of the rectangle
   vec3 across{0.0f}, up{0.0f};  // its sides [m]
-  vec3 normal{0.0f};            // unit, of the side that emits
+  vec3 normal{0.0f};            // unit normal of the emitting side
   bool bothSides = false;
   std::vector<vec3> triangles;  // three corners each
-  Rows shape{};                 // the places on the light
+  Rows shape{};                 // the places that lie on the light
 
   vec3 place(float column, float row) const {
     return origin + (column * across + row * up) / static_cast<float>(side);
@@ -34,30 +34,30 @@ struct FlatLight {
   }
 };
 
-// The surface of an object as a flat light; none if it is not in one plane, or has no area.
+// The surface of an object as a flat light; none if it is not planar or has no area.
 std::optional<FlatLight> flatLightOf(const RenderScene& scene, uint32_t object, int side);
 
 class VisiblePlaces {
  public:
-  // All places are visible from x, which is not in the plane of the light.
+  // Starts with all places visible from x, which must not lie in the plane of the light.
   VisiblePlaces(const FlatLight& light, const vec3& x);
 
-  // Hides the places whose middles lie behind the triangle as seen from x. Parts of it beyond the
-  // light, or nearer to the plane through x parallel to the light than a thousandth of its
-  // distance, hide nothing.
+  // Hides the places whose centres lie behind the triangle as seen from x. Parts of the triangle
+  // behind the light, or very near the plane through x parallel to the light (a thousandth of the
+  // distance of the light), hide nothing.
   void block(const vec3& a, const vec3& b, const vec3& c);
 
   bool isVisible(int column, int row) const {
     return (blocked_[static_cast<size_t>(row)] >> column & 1u) == 0;
   }
-  // Σ w·visible / Σ w over the places of the light, with the weight w = cos θ cos θ' / r² of the
-  // middle of each block of 8 × 8 places; 0 if all weights are. `n`: unit normal at x.
+  // Σ w·visible / Σ w over the places of the light, with the weight w = cos θ cos θ' / r² at the
+  // centre of each block of 8 × 8 places; 0 if all weights are 0. `n`: unit normal at x.
   float visibleShare(const vec3& n) const;
 
  private:
   const FlatLight& light_;
   vec3 x_;
-  float height_;  // of x above the plane of the light, with a sign [m]
+  float height_;  // signed height of x above the plane of the light [m]
   FlatLight::Rows blocked_{};
 };
 

@@ -1,9 +1,9 @@
-// The direct light of area lights at the vertices of meshes that are refined where the picture asks
-// (paper 4, "Multi-mesh caching"): one mesh for each light, so that a light that moves, or becomes
-// brighter, changes no other, or one for all.
+// The direct light of area lights at the vertices of meshes that are refined where the picture
+// needs it (paper 4, "Multi-mesh caching"): one mesh for each light, so that an edit of a light
+// does not change other meshes, or one mesh for all lights.
 //
-// The light of a vertex is a function of its place and normal, and the cut that a view shows one of
-// that light (mesh_cut.h). So a finished picture is the same whatever came before.
+// The light of a vertex depends only on its position and normal, and the cut for a view
+// (mesh_cut.h) only on that light. So a finished picture does not depend on earlier frames.
 #pragma once
 
 #include <memory>
@@ -22,16 +22,18 @@ struct DirectMeshOptions {
   MeshPriority priority = MeshPriority::sorted;
   bool isSeparate = true;  // a mesh for each light
   uint32_t seed = 1;
-  size_t memory = size_t{256} << 20;  // of vertices and nodes; those of other views are forgotten
+  size_t memory =
+      size_t{256}
+      << 20;  // limit for vertices and nodes [bytes]; those of other views are discarded
   bool operator==(const DirectMeshOptions&) const = default;
 };
 
 class DirectMeshes {
  public:
-  // Work since beginFrame(), and what there is.
+  // Work since beginFrame(), and current sizes.
   struct Counts {
     size_t meshes = 0, vertices = 0, triangles = 0;  // triangles: of all cuts of the last picture
-    size_t samples = 0;                              // vertices whose light was found
+    size_t samples = 0;                              // vertices whose light was computed
     LightFactor::Work work;
     size_t bytes = 0;
   };
@@ -40,20 +42,21 @@ class DirectMeshes {
     counts_.samples = 0;
     counts_.work = {};
   }
-  // Takes the scene, and forgets the light that may have changed. `lights`: valid until the next
-  // call, as are `scene` and `rays`.
+  // Takes the scene and discards light that may have changed. `lights`, `scene` and `rays` must
+  // stay valid until the next call.
   void update(const RenderScene& scene, const RenderSceneChanges& changes, const RayCaster& rays,
               const LightSet& lights, const DirectMeshOptions& options);
-  // The pixels to show from now on.
+  // Sets the pixels that the following calls show.
   void show(const View& view, const GBufferView& gbuffer, const SurfacePictureOptions& options);
-  // Finds light that the pixels need, of up to `most` vertices. Returns whether nothing is missing.
+  // Computes light that the pixels need, at up to `most` vertices. Returns whether nothing is
+  // missing.
   bool goOn(size_t most);
-  // The radiance of the pixels by each mesh, per unit of brightness(). `byMesh`: that of the last
-  // call since show(), whose unchanged parts stay.
+  // Computes the radiance of the pixels by each mesh, per unit of brightness(). `byMesh`: the
+  // result of the last call since show(); unchanged parts are kept.
   void picture(std::vector<std::vector<vec3>>& byMesh);
-  // Of each mesh [of the emitter; 1 if there is one mesh for all].
+  // By mesh: brightness of its emitter; 1 if there is one mesh for all lights.
   std::vector<vec3> brightness() const;
-  // Whether the last update changed more than the brightness of lights whose light is known.
+  // Whether the last update changed anything except the brightness of lights whose light is known.
   bool changed() const { return changed_; }
 
   const Counts& counts() const { return counts_; }
@@ -61,13 +64,14 @@ class DirectMeshes {
 
  private:
   struct Mesh {
-    std::vector<VplId> lights;         // one, or all
-    std::vector<LitPixels::Light> of;  // the same; weights: brightness if there are several
+    std::vector<VplId> lights;  // one, or all
+    std::vector<LitPixels::Light>
+        of;  // the same lights; weights: brightness if there are several lights
     MeshValues values;
-    bool isComplete = false;  // for the pixels
-    bool isOff = false;       // has no brightness, so that nothing is found
-    bool isShown = false;     // by the last picture(), as it is
-    size_t triangles = 0;     // of its cut then
+    bool isComplete = false;  // whether the light of all pixels is known
+    bool isOff = false;       // the light is off, so nothing is computed
+    bool isShown = false;     // the last picture() shows it unchanged
+    size_t triangles = 0;     // triangles of its cut in the last picture()
   };
   void findLight(Mesh& mesh, uint32_t number, size_t most);
   void makeMeshes(const RenderSceneChanges& changes, const DirectMeshOptions& options);
@@ -88,7 +92,7 @@ class DirectMeshes {
   std::vector<uint32_t> roots_;  // of the visible triangles
   std::optional<LitPixels> pixels_;
   uint32_t batch_ = 0;
-  size_t next_ = 0;  // mesh at which the next frame goes on
+  size_t next_ = 0;  // mesh at which the next frame continues
   bool changed_ = false;
   Counts counts_;
 };

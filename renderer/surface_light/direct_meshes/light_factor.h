@@ -18,9 +18,9 @@ class LightFactor {
   LightFactor(const RenderScene& scene, const RayCaster& rays, const Blockers& blockers,
               const LightSet& lights, size_t emitter, const VplId& id, uint32_t seed);
 
-  // How a sample was found.
+  // Number of samples by the way they were computed.
   struct Work {
-    size_t open = 0, masks = 0;  // nothing is between; blockers were drawn into a mask
+    size_t open = 0, masks = 0;  // without blockers; with blockers in a mask
     uint64_t rays = 0;
     Work& operator+=(const Work& w) {
       open += w.open;
@@ -29,13 +29,14 @@ class LightFactor {
       return *this;
     }
   };
-  // Of a flat light with few blockers by its closed form times the visible share of a mask; of
-  // others by rays to places all over the light. [W/m² per unit of brightness]
+  // Irradiance of a vertex [W/m² per unit of brightness]. Flat light with few blockers: closed form
+  // times the visible share of a bit mask. Other lights: rays to points all over the light.
   vec3 at(const SplitTree::Vertex& vertex, Work& work) const;
-  // If nothing were between: by the closed form, or by the points. 0 below the surface.
+  // Irradiance without occlusion: by the closed form, or by the points. 0 below the surface.
   vec3 unshadowed(const vec3& position, const vec3& normal) const;
 
-  // Places on the light, in equal shares of its light; so are the first few of them.
+  // Points on the light that represent equal shares of its light; any leading part of the list is
+  // well distributed, too.
   std::span<const EmitterPoint> points() const { return points_; }
   size_t emitter() const { return emitter_; }
   bool isLeftOutBy(uint32_t leftOutBy) const;
@@ -43,7 +44,7 @@ class LightFactor {
  private:
   struct Share {
     vec3 seen{0.0f};  // share of the light that arrives
-    vec3 all{0.0f};   // if nothing were between, by the points
+    vec3 all{0.0f};   // without occlusion, by the points
   };
   Share shareOf(const SurfaceSpot& spot, Work& work) const;
 

@@ -1,4 +1,4 @@
-// How the pixels of a picture reflect the light of meshes: paper 4, equations (4) to (6).
+// Reflection of the light of meshes at the pixels of a picture: paper 4, equations (4) to (6).
 #pragma once
 
 #include <span>
@@ -16,21 +16,21 @@ class LitPixels {
   LitPixels(const RenderScene& scene, const GBufferView& gbuffer, const vec3& eye,
             const SurfacePictureOptions& options);
 
-  // A light of a mesh, and the factor by which the mesh has its light.
+  // A light of a mesh, and its weight in the mesh.
   struct Light {
     const LightFactor* factor = nullptr;
     vec3 weight{1.0f};
   };
-  // The radiance that the irradiance of a mesh makes at each pixel, with highlights: light from
-  // places all over the lights, without shadows, times the share of the light that arrives. Normal
-  // maps change the irradiance as they change that without shadows.
+  // Computes the radiance of each pixel by the irradiance of a mesh. Highlights: light from points
+  // all over the lights, without shadows, times the share of the light that arrives. Normal maps
+  // scale the irradiance by the same factor as the irradiance without shadows.
   void reflect(std::span<const Light> lights, std::span<const vec3> irradiance,
                std::vector<vec3>& radiance) const;
 
  private:
   struct Pixel {
     vec3 position{0.0f}, normal{0.0f}, smooth{0.0f};  // with and without the normal map
-    vec3 diffuse{0.0f};                               // share of irradiance, times π
+    vec3 diffuse{0.0f};                               // reflected share of irradiance, times π
     bool isLit = false, isGlossy = false, isMapped = false;
     shared::Lobe lobe{};
   };

@@ -1,9 +1,9 @@
-// Which nodes of the quad-trees show the light of a mesh in a view: edges are divided where the
-// light halfway differs from the mean of their ends (paper 4, section 3).
+// Chooses the nodes of the quad-trees that show the light of a mesh in a view: an edge is divided
+// if the light at its middle differs from the mean of its ends (paper 4, section 3).
 //
-// Everything is decided at edges, from their ends, their middle and the view alone. So the
-// triangles at both sides agree, and light is continuous: the middle of an edge that is not divided
-// has the mean of its ends, and neither half of it is divided further.
+// The decision depends only on the ends and the middle of an edge and on the view. So the triangles
+// on both sides agree, and light is continuous: the middle of an undivided edge has the mean of its
+// ends, and neither half of it is divided further.
 #pragma once
 
 #include <span>
@@ -34,12 +34,12 @@ struct VertexRequest {
 };
 
 struct MeshCutOptions {
-  float contrast = 0.02f;    // an edge is divided if its middle differs by a larger share
+  float contrast = 0.02f;    // an edge is divided if its middle differs by a larger relative amount
   float leastPixels = 4.0f;  // edges that are shorter in the picture are not divided
   bool operator==(const MeshCutOptions&) const = default;
 };
 
-// Edges that are longer in the picture are divided in any case, so that no shadow is missed
+// Edges that are longer than this in the picture are always divided, so that no shadow is missed
 // [pixels]
 inline constexpr float kLongEdge = 24.0f;
 
@@ -49,8 +49,9 @@ class MeshCut {
   MeshCut(const SplitTree& tree, const MeshValues& values, const VisibleTriangles& visible,
           std::span<const uint32_t> roots, const View& view, const MeshCutOptions& options);
 
-  // Descends from the roots. What is missing for the final cut, in a fixed order; a vertex or a
-  // node may be named twice. `light`: if not null, the light of each pixel that shows a surface.
+  // Descends from the roots. Returns vertices and nodes that are missing for the final cut, in a
+  // fixed order and possibly twice. `light`: if not null, receives the light of each pixel that
+  // shows a surface.
   struct Missing {
     std::vector<VertexRequest> vertices;
     std::vector<uint32_t> nodes;  // to be divided
@@ -74,7 +75,7 @@ class MeshCut {
   float focus_;  // pixels per radian
   MeshCutOptions options_;
   bool isRooted_ = true;  // the light of all corners of roots is known
-  float floor_ = 0.0f;    // light that counts as dark
+  float floor_ = 0.0f;    // light below this counts as dark
 };
 
 }  // namespace lamplighter

@@ -1,6 +1,6 @@
 // Quad-trees over the triangles of a scene: a node is divided into four at the midpoints of its
-// edges (paper 4, section 3). The trees have all vertices and divisions that any light has asked
-// for; which of them a light shows is a cut (mesh_cut.h).
+// edges (paper 4, section 3). The trees contain all vertices and divisions that any light has
+// requested; each light shows a cut of them (mesh_cut.h).
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@ class SplitTree {
  public:
   static constexpr uint32_t kNone = 0xffffffffu;
 
-  // Vertices of one place and normal are one, whatever triangles they belong to. World space.
+  // Vertices with equal position and normal are shared between triangles. World space.
   struct Vertex {
-    vec3 position{0.0f}, normal{0.0f};  // unit, on the side that is lit
+    vec3 position{0.0f}, normal{0.0f};  // unit length, on the lit side
     uint32_t leftOutBy = 0;             // light_linking.h
     bool operator==(const Vertex&) const = default;
   };
@@ -30,9 +30,9 @@ class SplitTree {
     uint32_t children = kNone;  // the first of four
   };
 
-  // The node of a whole triangle; made if there is none.
+  // The node of a whole triangle; creates it if necessary.
   uint32_t root(const RenderScene& scene, const VisibleTriangles::Triangle& triangle);
-  // Of objects whose triangles are at other places now.
+  // Discards the trees of objects whose triangles moved.
   void forgetRoots(std::span<const uint32_t> objects);
   // Divides a node that has no children.
   void split(uint32_t node);

@@ -13,7 +13,7 @@ class VisibleTriangles {
  public:
   struct Triangle {
     uint32_t object = 0, triangle = 0;  // within the object
-    bool isBack = false;                // its back face is seen
+    bool isBack = false;                // its back face is visible
     uint32_t first = 0, count = 0;      // pixels
   };
   struct Pixel {
@@ -29,7 +29,7 @@ class VisibleTriangles {
   std::span<const Pixel> pixelsOf(const Triangle& t) const {
     return std::span(pixels_).subspan(t.first, t.count);
   }
-  size_t pixels() const { return pixels_.size(); }  // that show a surface
+  size_t pixels() const { return pixels_.size(); }  // number of pixels that show a surface
 
  private:
   std::vector<Triangle> triangles_;

@@ -1,4 +1,4 @@
-// What glossy surfaces mirror where elements of surface keep the light.
+// Reflected light in glossy surfaces for methods that store light at surface elements.
 #pragma once
 
 #include "renderer/surface_light/gather_rays.h"
@@ -9,7 +9,7 @@ namespace lamplighter {
 
 class MeshMirror final : public MirroredLight {
  public:
-  // Refers to its arguments.
+  // Keeps references to its arguments.
   MeshMirror(const GatherScene& scene, const SurfaceLight& light) : scene_(scene), light_(&light) {}
   uint64_t placeOf(const Ray& ray, const Hit& hit) const override;
   vec3 radianceOf(uint64_t place) const override;

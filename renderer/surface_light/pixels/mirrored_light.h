@@ -1,4 +1,4 @@
-// What glossy surfaces mirror: light that is kept on surfaces, and the sky, as rays find it.
+// Interface to the light that glossy surfaces mirror: light stored on surfaces, and the sky.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@ namespace lamplighter {
 class MirroredLight {
  public:
   virtual ~MirroredLight() = default;
-  // What the ray sees where it hits, in a form to be kept: other light needs no other ray. Several
-  // threads may call it.
+  // Identifies the hit of a ray. The value can be stored, so that edits of light trace no rays.
+  // Thread-safe.
   virtual uint64_t placeOf(const Ray& ray, const Hit& hit) const = 0;
-  // What such a place sends now [W/(m² sr)].
+  // The current radiance of such a place [W/(m² sr)].
   virtual vec3 radianceOf(uint64_t place) const = 0;
-  // Over how large an area light is kept as one value [m²]; infinite where it is not that of the
-  // surface at the place: of elements that stand for many small triangles, or are cut by a wall.
+  // Area for which one value of light is stored at this place [m²]; infinite if the value does not
+  // represent the surface there: elements that represent many small triangles or are cut by a wall.
   virtual float areaOf(uint64_t place) const = 0;
-  // What a ray that hits nothing sees [W/(m² sr)]; 0 if the sky is shown by something else.
+  // Radiance of the sky for a ray that hits nothing [W/(m² sr)]; 0 if something else adds the sky.
   virtual vec3 skyTowards(const vec3& direction) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// What glossy surfaces of a view mirror: bounced light and the sky along rays of their lobes. What
-// the rays see is kept, so other light traces none. Neighbouring pixels share theirs.
+// Glossy reflections of bounced light and the sky in a view, along rays of the lobes. The hits are
+// stored, so that edits of light trace no rays. Neighbouring pixels share their rays.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ namespace lamplighter {
 
 class PixelLobes {
  public:
-  // How much of a lobe follows rays, by roughness. For the rest even light is as good.
+  // Share of a lobe that is computed by rays, by roughness. The rest uses uniform light.
   static float tracedShare(float roughness);
 
   // `samples`: how many G-buffers of the view follow.
   void restart(const View& view, int samples, uint32_t seed);
-  // Some rows of one of them, from the first row on: a ray for each pixel with a lobe. Returns the
+  // Adds rows of the current G-buffer, in order: one ray for each pixel with a lobe. Returns the
   // number of rays.
   uint64_t add(const RenderScene& scene, const RayCaster& rays, const MirroredLight& light,
                const GBufferView& gbuffer, const SurfacePictureOptions& options, Rows rows);
-  // To be called when the light that is mirrored is another.
+  // Call when the mirrored light has changed.
   void outdateLight() { reflected_ = {}; }
-  // Adds the radiance of the lobes, the mean of the whole samples.
+  // Adds the radiance of the lobes: the mean over the complete samples.
   void addTo(const RenderScene& scene, const MirroredLight& light, Image& picture);
   size_t bytes() const {
     return rays_.size() * sizeof(LobeRay) + guides_.size() * sizeof(Guide) +
@@ -39,11 +39,11 @@ class PixelLobes {
     std::array<uint16_t, 3> reflectance{};  // [1/65535]; 0: no ray
     bool isUsed() const { return (reflectance[0] | reflectance[1] | reflectance[2]) != 0; }
   };
-  // Of the first ray: which pixels show parts of the same reflection.
+  // Filter guide from the first ray: which pixels show parts of the same reflection.
   struct Guide {
     vec3 normal{0.0f};
     uint32_t object = 0;
-    float radius = 0.0f;  // within which the lobe blurs what it shows [pixels]
+    float radius = 0.0f;  // radius of the blur by the lobe [pixels]
   };
   void reflect(const RenderScene& scene, const MirroredLight& light);
   std::vector<float> evenRadii() const;
@@ -55,7 +55,7 @@ class PixelLobes {
   int samples_ = 0, added_ = 0;
   std::vector<LobeRay> rays_;  // by sample, then by pixel; empty without glossy pixels
   std::vector<Guide> guides_;  // by pixel
-  // By pixel, radiance of the lobes [W/(m² sr)]; empty if it is not known.
+  // By pixel: radiance of the lobes [W/(m² sr)]; empty if it is outdated.
   std::vector<vec3> reflected_;
 };
 

@@ -1,4 +1,4 @@
-// How a visible point reflects light that is kept on surfaces towards the eye.
+// Reflection at a visible point of light that is stored on surfaces, towards the eye.
 #pragma once
 
 #include "renderer/backends/gbuffer_view.h"
@@ -13,15 +13,15 @@ struct SurfacePictureOptions {
   bool operator==(const SurfacePictureOptions&) const = default;
 };
 
-// Shares of even light, times π, and the shape of the lobe.
+// Reflected shares of uniform light, times π, and the shape of the lobe.
 struct PixelReflectance {
   vec3 diffuse{0.0f};
   vec3 lobe{0.0f};         // its directional albedo
   float roughness = 1.0f;  // at least that of the options
 };
 
-// `weights`: of the second and third vertex of the triangle that the pixel shows. `eye`: in world
-// space.
+// `weights`: weights of the second and third vertex of the triangle that the pixel shows. `eye`: in
+// world space.
 PixelReflectance reflectanceOf(const RenderScene& scene, const GBufferPoint& p, const vec2& weights,
                                const vec3& eye, const SurfacePictureOptions& options);
 

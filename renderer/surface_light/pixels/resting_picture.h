@@ -1,5 +1,5 @@
-// A picture of the light on the surface mesh when nothing moves: with what glossy surfaces mirror,
-// and antialiased if it has several samples. Its rows are found over several frames.
+// A picture of the light on the surface mesh when nothing moves: with glossy reflections, and
+// antialiased if it has several samples. Its rows are computed over several frames.
 #pragma once
 
 #include "renderer/surface_light/pixels/mesh_mirror.h"
@@ -10,17 +10,17 @@ namespace lamplighter {
 
 class RestingPicture {
  public:
-  // Forgets all pixels. `samples`: how many G-buffers of the view follow.
+  // Discards all pixels. `samples`: how many G-buffers of the view follow.
   void restart(const View& view, int samples, uint32_t seed);
   bool isComplete() const { return samples_ > 0 && pixels_.samples() == samples_; }
   int samples() const { return samples_; }
-  // The sample that the next rows are of.
+  // The sample of the next rows.
   int sample() const { return pixels_.samples(); }
-  // The next rows, at most so many, of this sample. `gbuffer`: shifted as the sample is.
+  // Adds up to `most` next rows of this sample. `gbuffer`: with the subpixel shift of the sample.
   void add(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,
            const GBufferView& gbuffer, const SurfacePictureOptions& options, int most);
 
-  // To be called when the light on the mesh is another.
+  // Call when the light on the mesh has changed.
   void outdateLight() { lobes_.outdateLight(); }
   // Adds the radiance of the pixels, which must be complete.
   void addTo(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,

@@ -1,4 +1,4 @@
-// The place on its triangle that a pixel shows.
+// The point of a triangle that a pixel shows.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The pixels of a picture as points of the surface mesh: found once for a view, so that other light
-// on the mesh is shown by a few look-ups a pixel.
+// The pixels of a picture as points of the surface mesh: found once for a view, so that changed
+// light on the mesh is shown by a few look-ups per pixel.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace lamplighter {
 
 class SurfacePicture {
  public:
-  // Forgets all pixels. `samples`: how many G-buffers of this size follow.
+  // Discards all pixels. `samples`: how many G-buffers of this size follow.
   void restart(int width, int height, int samples);
-  // Some rows of one of them, from the first row on. Pixels where the mesh is too coarse are shown
-  // by records, if there are any. `withoutLobes`: PixelLobes adds what these reflect.
+  // Adds rows of the current G-buffer, in order. Pixels where the mesh is too coarse use records,
+  // if there are any. `withoutLobes`: leaves out the lobes, which PixelLobes adds.
   void add(const GatherScene& scene, const SurfaceLight& light, const ViewRecords& records,
            const GBufferView& gbuffer, const vec3& eye, const SurfacePictureOptions& options,
            Rows rows, bool withoutLobes = false);
 
-  // Replaces the pixels of the only G-buffer that show another place than before. The mesh and the
-  // records have the same numbers as then.
+  // Replaces the pixels of the only G-buffer that show a different point than before. The mesh and
+  // the records must have the same numbers as before.
   void replaceChanged(const GatherScene& scene, const SurfaceLight& light,
                       const ViewRecords& records, const GBufferView& gbuffer, const vec3& eye,
                       const SurfacePictureOptions& options) {
@@ -34,9 +34,9 @@ class SurfacePicture {
     keepsSame_ = false;
   }
 
-  int samples() const { return added_; }  // that are whole
-  // Adds the radiance that reflects the irradiance on the mesh, the mean of the samples.
-  // `onMesh`: irradiance by value of the mesh, `ofRecords`: by record [W/m²].
+  int samples() const { return added_; }  // number of complete samples
+  // Adds the reflected radiance: the mean over the samples. `onMesh`: irradiance by value of the
+  // mesh, `ofRecords`: by record [W/m²].
   void addTo(std::span<const vec3> onMesh, std::span<const vec3> ofRecords, Image& picture) const;
   size_t bytes() const;
 
@@ -49,12 +49,12 @@ class SurfacePicture {
     // [1/65535]
     std::array<uint16_t, 3> weights{};
     std::array<uint16_t, 3> reflectance{};
-    uint32_t key = 0;  // of the place that it shows
+    uint32_t key = 0;  // identifies the point that the pixel shows
   };
   int width_ = 0, height_ = 0, samples_ = 0, added_ = 0;
   bool keepsSame_ = false;
   std::vector<std::vector<Point>> points_;  // by sample, then by pixel
-  // Of the G-buffer when the only sample was added, by tile.
+  // By tile: revision of the G-buffer when the only sample was added.
   std::vector<uint64_t> revisions_;
 };
 

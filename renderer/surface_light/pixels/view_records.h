@@ -1,7 +1,7 @@
 // Records of irradiance at pixels of a view, where the elements of the surface mesh are too coarse:
-// in corners, at contacts, on detailed meshes. They gather light from the mesh along kept rays, so
-// other light on the mesh traces none. Distances between records follow Ward, Rubinstein and Clear,
-// "A Ray Tracing Solution for Diffuse Interreflection" (1988).
+// in corners, at contacts, on detailed meshes. They gather light from the mesh along stored rays,
+// so that changed light on the mesh traces no rays. Distances between records follow Ward,
+// Rubinstein and Clear, "A Ray Tracing Solution for Diffuse Interreflection" (1988).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace lamplighter {
 
 class ViewRecords {
  public:
-  static constexpr size_t kRays = 64;  // of a record
+  static constexpr size_t kRays = 64;  // rays per record
 
   // The records that show the light of a pixel, and their weights, whose sum is 1.
   struct Point {
@@ -25,26 +25,26 @@ class ViewRecords {
   };
 
   void restart(const View& view, uint32_t seed, GatherProjection projection);
-  // After each SurfaceLight::update(): which rays are out of date.
+  // Call after each SurfaceLight::update(): marks outdated rays.
   void outdate(const GatherScene& scene, const SurfaceLight& light);
   // Chooses records for the G-buffer of the view and traces up to about `most` rays, but at least
-  // those of the first record. To be called until isDone().
+  // those of the first record. Call it until isDone().
   void choose(const GatherScene& scene, const SurfaceLight& light, const GBufferView& gbuffer,
               uint64_t most);
-  // Only traces what is out of date, for frames in which objects move.
+  // Traces only outdated rays, for frames in which objects move.
   void retrace(const GatherScene& scene, uint64_t most);
-  // The light of the records. After each of the above.
+  // Computes the light of the records. Call after each of the above.
   void findLight(const RenderScene& scene, const SurfaceLight& light);
   // Whether all records have all rays.
   bool isDone() const { return isDone_; }
-  // Of records that are known to be missing. More may follow from what these see.
+  // Missing rays of the known records. More may be needed after these are traced.
   uint64_t raysLeft() const { return raysLeft_; }
   bool isEmpty() const { return records_.empty(); }
 
-  // Those of a pixel that shows this spot of an object. Where none is like it, others of the same
-  // object around it. False if there are none.
+  // The records for a pixel that shows this spot of an object. If no record is similar, other
+  // records of the same object around the pixel. False if there are none.
   bool find(int x, int y, uint32_t object, const SurfaceSpot& spot, Point& out) const;
-  // Irradiance by record [W/m²], of the part that the light shows.
+  // Irradiance by record [W/m²], of SurfaceLight::part().
   const std::vector<vec3>& values() const { return values_; }
   size_t bytes() const;
 
@@ -53,14 +53,14 @@ class ViewRecords {
     SurfaceSpot spot;
     MeshPoint onMesh;
     float trust = 0.0f;   // of onMesh
-    float radius = 0.0f;  // within which its light may be used [m]
-    uint64_t stale = 0;   // a bit for each ray that is out of date
+    float radius = 0.0f;  // maximum distance at which its light may be used [m]
+    uint64_t stale = 0;   // one bit for each outdated ray
     vec3 sky{0.0f};       // SurfaceLight::skyAlong() of its links
     bool hasSky = false;
     uint32_t object = 0, place = 0, cell = 0;
     uint8_t level = 0, set = 0;
 
-    // Not if the object slid along its own surface: then another point of it is there.
+    // False if the object slid along its own surface, because another point of it is there.
     bool isSame(const Record& other) const {
       return spot.position == other.spot.position && spot.turn == other.spot.turn &&
              object == other.object && place == other.place;
@@ -86,7 +86,7 @@ class ViewRecords {
     return std::span(links_).subspan(record * kRays, kRays);
   }
   // Calls take(record, weight) for the records of the first `levels` levels around a pixel. The
-  // weight is that of its cell times like(record), over 0.
+  // weight is the weight of the cell times like(record), and larger than 0.
   template <typename Like, typename Take>
   void around(int x, int y, size_t levels, const Like& like, const Take& take) const;
 
