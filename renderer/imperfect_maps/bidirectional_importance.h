@@ -1,4 +1,5 @@
-// What each potential light sample brings to the view, without visibility (paper 2, section 4).
+// Importance of each potential light sample: its contribution to the view, without visibility
+// (paper 2, section 4).
 #pragma once
 
 #include <span>
@@ -10,7 +11,7 @@
 
 namespace lamplighter {
 
-// Visible points that light is sent to.
+// Visible points that receive light.
 struct ViewSamples {
   // World space; unit normals on the visible side.
   std::vector<float> x, y, z, nx, ny, nz;
@@ -27,8 +28,8 @@ ViewSamples raySamples(const RenderScene& scene, const RayCaster& rays, const Vi
 float geometryBetween(const vec3& from, const vec3& fromNormal, const vec3& to,
                       const vec3& toNormal, float clampDistance);
 
-// By texel: B, the mean over the samples, which all texels share, of lum(I)·cos⁺·cos⁺/max(d², d0²)
-// [W/m²].
+// By texel: B, the mean of lum(I)·cos⁺·cos⁺/max(d², d0²) over the samples, which are the same for
+// all texels [W/m²].
 std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const ViewSamples& samples,
                                            float clampDistance);
 
@@ -39,12 +40,12 @@ struct PixelSampleOptions {
   uint32_t seed = 1;
 };
 
-// The same with pixels as samples, other ones for each texel, and the luminance of what they
-// reflect: lum(I)·lum(ρ)·….
+// The same with pixels as samples, different ones for each texel, and with the luminance of
+// reflected light: lum(I)·lum(ρ)·….
 std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const GBufferView& gbuffer,
                                            const View& view, const PixelSampleOptions& options);
-// Averages noisy values over those of the eight neighbours in a block of the map that lie about on
-// the plane of the texel (section 6.5).
+// Averages noisy values over those of the eight neighbours in a block of the map that lie
+// approximately in the plane of the texel (section 6.5).
 std::vector<float> blurred(const ReflectiveMap& map, const std::vector<float>& importance);
 
 }  // namespace lamplighter

@@ -13,20 +13,20 @@ namespace lamplighter {
 
 struct LightChoiceOptions {
   int count = 1024;
-  // Share of the choice that follows the flux of texels instead of their importance, which leaves
-  // out what stands between. It bounds the brightness of a sample.
+  // Share of the choice that follows the flux of texels instead of their importance, which ignores
+  // occlusion. It bounds the brightness of a sample.
   float defence = 0.1f;
   uint32_t seed = 1;
-  // Samples lie between texels: means of their places, where these are close to each other in the
-  // picture. Null: at the texels.
+  // If not null: samples lie between texels that are close to each other in this view, at the mean
+  // of their positions. Null: samples lie at texels.
   const View* between = nullptr;
 };
 
 struct ChosenLights {
   std::vector<SceneVpl> lights;  // intensity I/(N·p)
   std::vector<uint32_t> texels;  // of each light
-  float defended = 0.0f;         // share of all flux of texels without importance, which only
-                                 // the defence chooses
+  float defended = 0.0f;         // share of the flux of texels without importance, which only the
+                                 // defensive share chooses
 };
 
 // N lights by one two-dimensional (0, 2)-net: a column by the sums of columns, then a row by its
@@ -35,13 +35,13 @@ struct ChosenLights {
 ChosenLights chooseLights(const ReflectiveMap& map, std::span<const float> importance,
                           const LightChoiceOptions& options);
 
-// The same light with each texel that was chosen several times as one sample, in the order of the
-// first choices. Not for samples between texels.
+// Merges samples at the same texel into one, in the order of the first choices. Not for samples
+// between texels.
 std::vector<SceneVpl> mergedLights(const ChosenLights& chosen);
 
-// Lights whose 1/d² term is bounded so that none lights a point more than `mostIrradiance` [W/m²],
-// and at least as far as `clampDistance` [m]. A sample that its probability makes very bright would
-// show as a blotch on near surfaces.
+// Sets the distance at which the 1/d² term of each light is bounded: at least `clampDistance` [m],
+// and such that no light gives a point more irradiance than `mostIrradiance` [W/m²]. A sample with
+// a small probability is very bright and would otherwise be visible as a blotch on near surfaces.
 std::vector<MapLight> boundedLights(std::span<const SceneVpl> lights, float clampDistance,
                                     float mostIrradiance);
 

@@ -1,5 +1,5 @@
-// All triangles that rays can hit, in groups of neighbours: what the importance of occluders is
-// computed for, so that its cost grows with the groups and not with the triangles.
+// All triangles that rays can hit, in groups of neighbours. The importance of occluders is computed
+// by group, so that its cost grows with the number of groups and not of triangles.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace lamplighter {
 // Neighbouring triangles of an object. Lengths are in the unit of the scene, in world space.
 struct OccluderGroup {
   vec3 centre{0.0f};    // by area
-  float radius = 0.0f;  // of the sphere around it that contains the triangles
+  float radius = 0.0f;  // radius of a bounding sphere of the triangles
   float area = 0.0f;    // of one side
   // M = Σ Aᵢ nᵢ nᵢᵀ of areas and normals: xx, yy, zz and yz, zx, xy. Its trace is `area`. ωᵀ M ω is
   // 0 for a plane that is seen edge-on and `area` for one that is seen face-on.
@@ -38,8 +38,8 @@ class OccluderGroups {
   OccluderGroups() = default;
   explicit OccluderGroups(const RenderScene& scene);
 
-  // Measures only objects that moved, came or became opaque, in parallel. The result is equal to
-  // that of the constructor, bit for bit. Returns whether anything changed.
+  // Updates only objects that moved, were added or became opaque, in parallel. The result is
+  // bitwise equal to that of the constructor. Returns whether anything changed.
   bool update(const RenderScene& scene, const RenderSceneChanges& changes);
 
   // In the order of the objects.
@@ -55,7 +55,7 @@ class OccluderGroups {
  private:
   using MeshPart = std::pair<std::shared_ptr<const Mesh>, uint32_t>;  // primitive
   struct Object {
-    std::shared_ptr<const OccluderOrder> order;  // of the last time it was shown
+    std::shared_ptr<const OccluderOrder> order;  // from the last time that it was visible
     uint32_t firstGroup = 0, groups = 0;
     uint32_t firstTriangle = 0, triangles = 0;
     double area = 0.0;

@@ -1,5 +1,5 @@
-// Points on surfaces that stand for them as occluders in imperfect shadow maps, denser where they
-// cover more of the view: paper 2, section 5.
+// Points that represent surfaces as occluders in imperfect shadow maps, denser where surfaces cover
+// a larger solid angle: paper 2, section 5.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct OccluderPointOptions {
 struct OccluderPointArrays {
   LaneFloats px, py, pz;
   LaneFloats nx, ny, nz;  // unit; on the front (counter-clockwise) side of the triangle
-  // The area that the point stands for if pointsPerMap points are used: the reciprocal of their
+  // The area that the point represents if pointsPerMap points are used: the reciprocal of their
   // number and of the density of points by area. 0: there is no such point now, or it lies in a
   // hole of an alpha mask.
   LaneFloats area;
@@ -47,25 +47,25 @@ struct OccluderPointArrays {
   std::vector<float> u, v;                 // weights of the second and third corner
 };
 
-// A pool of points. Block b is the points from b·pointsPerMap on and is for one map. A block, each
-// eighth of it and every 2ᵏ-th point of an eighth are stratified by the distribution of
-// OccluderImportance and within its groups. The points of an eighth lie in the order of the groups,
-// so that points that are near each other in memory are near each other in space.
+// A pool of points. Block b starts at point b·pointsPerMap and is for one map. A block, each eighth
+// of it and every 2ᵏ-th point of an eighth are stratified by the distribution of OccluderImportance
+// and within its groups. The points of an eighth lie in the order of the groups, so that points
+// that are close in memory are close in space.
 //
-// Each point is a function of its index, the seed, the scene and the positions. After these
-// changed, each update draws an eighth of each block anew: the points from e/8 to (e + 1)/8 of the
-// block, with e in turn (paper 2, 5.3). The parts are stratified each for itself, so that a mixture
-// of old and new ones covers all surfaces evenly. After 8 updates without a change the points are
-// those of a fresh start, bit for bit.
+// Each point is a function of its index, the seed, the scene and the positions. After a change of
+// these, each update draws an eighth of each block again: the points from e/8 to (e + 1)/8 of the
+// block, with e in turn (paper 2, 5.3). Each part is stratified, so that a mixture of old and new
+// parts covers all surfaces evenly. After 8 updates without a change the points are bitwise equal
+// to those of a new start.
 class OccluderPoints {
  public:
   static constexpr uint32_t kEighths = 8;
 
-  // `changes`: of the scene since the last call. Positions: see OccluderImportance; the caller
-  // keeps them for a steady distribution, and gives none for points that are uniform by area. All
-  // points follow moved objects at once; points of objects that are gone or became clear get area
-  // 0. Draws all points at the first call, when the scene was rebuilt and with other options. In
-  // parallel; the result does not depend on it. Returns whether any point changed. Throws
+  // `changes`: of the scene since the last call. Positions: see OccluderImportance; pass the same
+  // positions for a steady distribution, and none for points that are uniform by area. All points
+  // follow moved objects at once; points of objects that were removed or became clear get area 0.
+  // Draws all points at the first call, when the scene was rebuilt, and when the options changed.
+  // The result does not depend on the number of threads. Returns whether any point changed. Throws
   // InputError for numbers of points that OccluderPointOptions does not allow.
   bool update(const RenderScene& scene, const RenderSceneChanges& changes,
               std::span<const vec3> viewPositions, std::span<const vec3> lightPositions,
@@ -74,16 +74,16 @@ class OccluderPoints {
   const OccluderPointArrays& arrays() const { return arrays_; }
   uint32_t size() const { return static_cast<uint32_t>(arrays_.px.size()); }
   const OccluderPointOptions& options() const { return options_; }
-  // Of the state at the last update.
+  // State at the last update.
   const OccluderGroups& groups() const { return groups_; }
   const OccluderImportance& importance() const { return importance_; }
 
   bool isSettled() const { return pendingFrames() == 0; }
   uint32_t pendingFrames() const;  // updates without a change until isSettled()
-  // Updates since the point was drawn.
+  // Number of updates since the point was drawn.
   uint32_t ageOf(uint32_t point) const { return ages_[eighthOf(point)]; }
-  // Of the pool only: 44 bytes a point, 28 of them for position, normal and area, which are 3.5 MiB
-  // for the default number.
+  // Memory of the pool: 44 bytes per point, 28 of them for position, normal and area, which are 3.5
+  // MiB for the default number.
   size_t poolBytes() const;
   size_t memoryBytes() const;  // of everything
 
@@ -94,7 +94,7 @@ class OccluderPoints {
   OccluderPointArrays arrays_;
   std::vector<vec3> viewPositions_, lightPositions_;
   std::vector<double> objectAreas_;         // at the last update
-  std::array<bool, kEighths> isCurrent_{};  // drawn for the present input
+  std::array<bool, kEighths> isCurrent_{};  // by eighth: whether it is drawn for the current input
   std::array<uint32_t, kEighths> ages_{};
   uint32_t next_ = 0;  // eighth
   bool isStarted_ = false;
@@ -105,7 +105,7 @@ class OccluderPoints {
   void follow(const RenderScene& scene, const RenderSceneChanges& changes);
   bool takePositions(std::span<const vec3> view, std::span<const vec3> lights);
   void drawEighth(const RenderScene& scene, uint32_t eighth);
-  // A point of the sequence: its index, and its place in [0, 1)².
+  // A point of the sequence: its index, and its position in [0, 1)².
   struct Draw {
     uint32_t index = 0;
     vec2 random{0.0f};

@@ -1,11 +1,11 @@
-// Potential light samples: the vertices of light paths from all lights, unfolded into one grid, as
-// the texels of reflective shadow maps (paper 2, section 3.2; Dachsbacher and Stamminger 2005), for
-// every kind of light and several bounces.
+// Potential light samples: the vertices of light paths from all lights in one grid, like the texels
+// of reflective shadow maps (paper 2, section 3.2; Dachsbacher and Stamminger 2005), but for every
+// kind of light and several bounces.
 //
 // Each light has a block of columns for each bounce. The paths of a block are a (0, 2)-net in the
-// direction in which they leave the light (of suns and skies: in the place where they enter the
-// scene), so each cell of the block has exactly one: neighbours in the grid leave the light as
-// neighbours.
+// direction in which they leave the light (for suns and skies: in the position at which they enter
+// the scene), so each cell of the block has exactly one path, and neighbours in the grid leave the
+// light in similar directions.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 namespace lamplighter {
 
 struct ReflectiveMapOptions {
-  int texels = 24576;  // wanted in all, at all bounces
+  int texels = 24576;  // requested total, over all bounces
   int bounces = 2;
   uint32_t seed = 1;
   bool operator==(const ReflectiveMapOptions&) const = default;
@@ -27,19 +27,20 @@ struct ReflectiveMapOptions {
 
 class ReflectiveMap {
  public:
-  static constexpr int kRows = 64;  // of the grid
+  static constexpr int kRows = 64;  // rows of the grid
 
   // The columns of one light at one bounce.
   struct Block {
     int emitter = 0;  // index into LightSet::emitters()
-    VplId light;      // of its samples, with bounce and index 0
+    VplId light;      // id of its samples, with bounce and index 0
     uint32_t bounce = 1;
     int first = 0, columns = 0;
     size_t paths = 0;  // index of the first one
   };
 
-  // Follows the scene. Only paths that a change affects are traced again; the result is that of a
-  // new map, bit for bit. `movers`: since the last call. Returns whether anything may have changed.
+  // Updates the map after changes of the scene. Only affected paths are traced again; the result is
+  // bitwise equal to a new map. `movers`: since the last call. Returns whether anything may have
+  // changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
               std::span<const MoverFinder::Mover> movers, const ReflectiveMapOptions& options);
 
@@ -64,9 +65,9 @@ class ReflectiveMap {
     vec3 intensity(size_t i) const { return {red[i], green[i], blue[i]}; }
   };
   const Texels& texels() const { return texels_; }
-  // Index of its path in the sequence of its light.
+  // Index of the path of a texel in the sequence of its light.
   uint32_t pathOf(size_t texel) const { return pathIndex_[texel]; }
-  // A light sample at the place of a texel. The grid of its shadow map is turned by its id.
+  // A light sample at the position of a texel. The rotation of its shadow map depends on its id.
   SceneVpl sampleOf(int column, int row) const;
 
   uint64_t rays() const { return rays_; }  // in the last update
@@ -84,7 +85,7 @@ class ReflectiveMap {
   LightSet lights_;
   VplCounts counts_;
   int columns_ = 0;
-  std::vector<Block> blocks_;  // those of the first bounce, then those of the second, ...
+  std::vector<Block> blocks_;  // first those of the first bounce, then of the second, ...
   std::vector<size_t> blockOfColumn_;
   std::vector<LightPath> paths_;  // by cell of a block
   float scale_ = 1.0f;            // for lights that have no columns

@@ -1,4 +1,4 @@
-// Shadow maps of all triangles for light samples whose picture rests.
+// Shadow maps drawn from all triangles, for light samples at rest.
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@ namespace lamplighter {
 
 class RestMaps {
  public:
-  // The scene changed, or the size of the maps [texels].
+  // Call when the scene or the resolution of the maps changed.
   void outdate() { isCurrent_ = false; }
-  // Simple objects are rasterised, others traced. Maps are resolution² texels each, one after the
-  // other, as vpl_shading.h defines them; valid until the next call. In parallel; the result does
-  // not depend on it. Returns the number of rays.
+  // Simple objects are rasterised, others traced. The maps are concatenated, resolution² texels
+  // each, as vpl_shading.h defines them; valid until the next call. The result does not depend on
+  // the number of threads. Returns the number of rays.
   uint64_t draw(const RenderScene& scene, const RayCaster& rays, std::span<const MapLight> lights,
                 int resolution);
   std::span<const float> maps() const { return maps_; }

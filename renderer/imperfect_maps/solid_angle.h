@@ -1,6 +1,6 @@
-// Solid angles of triangles: how much of the sphere of directions around a point they cover [sr].
-// A. Van Oosterom and J. Strackee, "The Solid Angle of a Plane Triangle", IEEE Transactions on
-// Biomedical Engineering 30(2), 1983. Paper 2 takes them as importance of triangles (section 5.1).
+// Solid angles of triangles [sr]. A. Van Oosterom and J. Strackee, "The Solid Angle of a Plane
+// Triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983. Paper 2 uses them as the
+// importance of triangles (section 5.1).
 #pragma once
 
 #include "renderer/base/simd.h"
@@ -9,7 +9,7 @@ namespace lamplighter {
 
 // The solid angle of the triangle abc around `at`, all in the same space, in [0, 2π] sr. Computed
 // in double precision. 2π at a point within the triangle; 0 at a corner and for a triangle without
-// area. On an edge it jumps, so that rounding may give anything between.
+// area. It is discontinuous at an edge, where rounding may give any value between.
 float solidAngle(const vec3& at, const vec3& a, const vec3& b, const vec3& c);
 
 // The same in [−2π, 2π] sr: negative where `at` is in front of the triangle, that is, sees its

@@ -1,4 +1,4 @@
-// Points as seen by a light, eight at a time: what imperfect_map.cpp draws.
+// Projection of points into the map of a light, eight at a time, for imperfect_map.cpp.
 #pragma once
 
 #include "renderer/base/simd.h"
@@ -8,16 +8,16 @@
 namespace lamplighter {
 
 inline constexpr size_t kSplatLanes = 8;
-// The area of a disc as a multiple of the area that its point stands for. Larger discs cover more
+// The area of a disc as a multiple of the area that its point represents. Larger discs cover more
 // of the surface, smaller ones reach less beyond its edges. Wrong pairs with 0.7, 1, 2: pillar_room
 // 3.5, 3.0, 3.7%; zdm2 12.4, 9.2, 9.9%; bathroom 6.6, 6.5, 9.1%.
 inline constexpr float kSplatArea = 1.0f;
-// A disc is at least so wide [texels].
+// Minimum radius of a disc [texels].
 inline constexpr float kSplatLeastRadius = 0.35f;
 // Discs seen at a smaller sine than this are not drawn: they are thinner than a texel, and the
 // surface on which the light itself lies must not block it.
 inline constexpr float kSplatLeastSine = 0.01f;
-// A disc that reaches so near to the light, as a share of w, may cover any texel.
+// A disc whose nearest part is closer to the light than this, as a share of w, may cover any texel.
 inline constexpr float kSplatNearest = 0.25f;
 
 // By lane: a disc in the space of the light, with centre q, normal n and radius r.
@@ -41,7 +41,7 @@ class SplatProjection {
         bitangent_(wide(glm::cross(vec3(light.normal), vec3(light.tangent)))),
         normal_(wide(vec3(light.normal))) {}
 
-  // The points from `first` on. Returns the lanes to be drawn, one bit each.
+  // Projects eight points from index `first`. Returns the lanes to draw, one bit each.
   HWY_INLINE uint32_t project(const OccluderSpan& points, size_t first, SplatBatch& out) const;
 
  private:

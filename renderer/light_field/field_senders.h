@@ -1,6 +1,6 @@
-// Texels that find light which goes on to bounce: one of each block of a chart. Light that bounces
-// again is gathered from far around, so that it needs no finer texels; 4 × 4 of them cost a
-// sixteenth.
+// Texels at which light for further bounces is computed: one per block of 4 × 4 texels of a chart.
+// Light that bounces again is gathered from a large area, so that it needs no finer texels; blocks
+// cost a sixteenth.
 #pragma once
 
 #include <vector>

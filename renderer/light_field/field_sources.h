@@ -1,5 +1,5 @@
-// What is sent along the light field without a bounce: by the sky, by area lights, and by surfaces
-// that emit.
+// Light that enters the light field without a bounce: from the sky, area lights and emissive
+// surfaces.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,13 @@
 
 namespace lamplighter {
 
-// The sky without its suns, from a direction [W/(m² sr)].
+// Radiance of the sky without suns in a direction [W/(m² sr)].
 vec3 skyRadiance(const LightSet& lights, const vec3& towards);
-// Its mean over the part of the sphere of each direction; then over those of the opposite ends.
+// Mean of this radiance over the part of the sphere of each direction, followed by those of the
+// opposite ends.
 std::vector<vec4> skyOf(const LightSet& lights, const FieldDirections& directions);
 
-// By PartnerNumbers [W/(m² sr)]: nothing from texels, unless they emit and the surface has lamps.
+// By PartnerNumbers [W/(m² sr)]. Texels send nothing, unless they emit and `withLamps` is set.
 std::vector<vec4> fieldSources(const RenderScene& scene, const LightSet& lights,
                                const TexelSet& texels, const FieldSurface& surface, bool withLamps,
                                const FieldDirections& directions);

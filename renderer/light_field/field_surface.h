@@ -1,5 +1,5 @@
-// The surface of a scene as the light field sees it: triangles that block light, each with its
-// place among the texels that keep light.
+// The surface of a scene for the light field: triangles that block light, with their positions in
+// the atlas of texels.
 #pragma once
 
 #include <span>
@@ -14,9 +14,9 @@ class FieldSurface {
  public:
   static constexpr uint32_t kNone = TexelSet::kNone;
 
-  // Numbers from here on are of places on area lights, not of texels.
+  // Numbers from this value are places on area lights, not texels.
   static constexpr uint32_t kLamps = 0x80000000u;
-  // Of the surface of an area light, in rows of the picture that it may have.
+  // Places on the surface of an area light, in rows like the pixels of its picture.
   static constexpr int kLampSide = 8, kLampPlaces = kLampSide * kLampSide;
 
   FieldSurface() = default;
@@ -26,26 +26,26 @@ class FieldSurface {
                const TexelSet& texels, bool withLamps);
 
   struct Triangle {
-    std::array<vec2, 3> texels;  // where its corners are in the rectangle of the object
+    std::array<vec2, 3> texels;  // positions of its corners in the rectangle of the object [texels]
     uint32_t object = 0, triangle = 0;
     bool isMasked = false;  // by the alpha of its material
     bool hasTexels = false;
   };
   std::span<const Triangle> triangles() const { return triangles_; }
-  // Of each of them, by number in RenderScene::positions. Apart from the rest, because most of them
-  // are so small that no line meets them.
+  // Corners of the triangles, as indices into RenderScene::positions. In an array of their own,
+  // because most triangles are so small that no line meets them.
   using Corners = std::array<uint32_t, 3>;
   std::span<const Corners> corners() const { return corners_; }
 
-  // The texel that reflects light from a place of a side of an object, given in texels of its
-  // rectangle: the nearest one that is not buried; or the place of an area light, kLamps and more.
-  // kNone: the side sends nothing.
+  // The texel that reflects light at a point of a side of an object, given in texels of its
+  // rectangle: the nearest one that is not buried; or a place on an area light, as a number of at
+  // least kLamps. kNone: the side sends no light.
   uint32_t texelAt(uint32_t object, bool isBack, const vec2& texels) const;
-  // Of a hit of a ray.
+  // The same for the hit of a ray.
   uint32_t texelAt(const RenderScene& scene, std::span<const ObjectAtlas> atlases, const Ray& ray,
                    const Hit& hit) const;
-  // Area lights that send light, by object; place number k of the light i is kLamps + i kLampPlaces
-  // + k.
+  // Area lights that send light, as indices of objects; place k of light i has the number kLamps +
+  // i kLampPlaces + k.
   std::span<const uint32_t> lamps() const { return lamps_; }
   size_t bytes() const;
 

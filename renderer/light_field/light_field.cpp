@@ -12,12 +12,12 @@
 namespace lamplighter {
 namespace {
 
-// Memory of a texel besides its partners, about [bytes].
+// Approximate memory of a texel without its partners [bytes].
 constexpr size_t kTexelBytes = 400;
-// Lines cost as much as rays where a texel has about so many triangles
-// (docs/results/light_field.md: the bathroom has 13).
+// Number of triangles per texel at which lines cost as much as rays (docs/results/light_field.md:
+// the bathroom has 13).
 constexpr size_t kTrianglesATexel = 16;
-// Seeds of the turns of sets with different seeds do not meet.
+// Distance of seeds, so that the rotations of sets with different seeds differ.
 constexpr uint32_t kSeedsASet = 0x100000;
 
 size_t directionsOf(const LightFieldOptions& options) {
@@ -60,7 +60,7 @@ void LightField::takeGeometry(const RenderScene& scene, Services& services,
         options_.sight == FieldSightChoice::automatic
             ? (areLines ? FieldSight::lines : FieldSight::rays)
             : (options_.sight == FieldSightChoice::lines ? FieldSight::lines : FieldSight::rays);
-    // Texels have the numbers of before.
+    // Whether texels have the same numbers as before.
     bool areSame = !update.isAnew && before == texels.size() && sight == sight_;
     for (uint32_t t = 0; areSame && t < before; ++t) areSame = update.moves.sameTexel[t] == t;
     sight_ = sight;
@@ -74,7 +74,7 @@ void LightField::takeGeometry(const RenderScene& scene, Services& services,
     if (areSame) {
       table_.outdate();
     } else {
-      // The light of before fades while partners are found from nothing.
+      // The previous light is faded out while all partners are computed again.
       former_ = former_.empty() ? irradiance_ : update.moves.carried(former_);
       if (update.isAnew) former_.clear();
       table_.restart(texels.size(), texels.size() > 0 ? directions_.size() : 0);

@@ -1,10 +1,10 @@
-// The light field: bounced light and the light of the sky at texels of the surface, from all
-// directions alike (paper 5, the virtual light field on the GPU).
-// Its cost does not depend on the number or the size of what emits.
+// The light field: bounced light and the light of the sky at texels of the surface, along a fixed
+// set of directions (paper 5, the virtual light field on the GPU). Its cost does not depend on the
+// number or the size of emitters.
 //
-// For each direction, each texel has a partner: what it sees there. Partners are found over several
-// frames, direction by direction; until then old ones stay. When all are found, the light is that
-// of a fresh start, bit for bit.
+// For each direction, each texel has a partner: the texel or sky that it sees. Partners are
+// computed over several frames, direction by direction; until then old ones are used. When all are
+// computed, the light is bitwise equal to that of a new start.
 #pragma once
 
 #include <vector>
@@ -18,35 +18,35 @@
 
 namespace lamplighter {
 
-// How partners are found: by a rule on the scene, or as in FieldSight.
+// How partners are found: automatic (a rule that depends on the scene), or as in FieldSight.
 enum class FieldSightChoice : uint8_t { automatic, lines, rays };
 
 struct LightFieldOptions {
-  float texel = 0.1f;  // side where memory allows it [m]
-  int divisions = 16;  // of the octahedron: 2 divisions² + 1 directions
+  float texel = 0.1f;  // side, if memory allows it [m]
+  int divisions = 16;  // divisions of the octahedron: 2 divisions² + 1 directions
   FieldSightChoice sight = FieldSightChoice::automatic;
   float cell = 1.0f;       // side of the cells of lines [texels]
-  bool withLamps = false;  // area lights and surfaces that emit send their light along the field
-  int sets = 4;            // of directions, each turned; all but the first at rest
-  size_t memory = size_t{128} << 20;  // of partners, about
+  bool withLamps = false;  // area lights and emissive surfaces send light along the field
+  int sets = 4;            // rotated sets of directions; all except the first only at rest
+  size_t memory = size_t{128} << 20;  // approximate limit for partners [bytes]
   int bounces = 2;
-  bool showsSky = true, showsBounces = true;  // what irradiance() is the sum of
+  bool showsSky = true, showsBounces = true;  // parts of irradiance()
   uint32_t seed = 1;
   bool operator==(const LightFieldOptions&) const = default;
 };
 
 class LightField final : public TexelIrradiance {
  public:
-  // Takes the changes of each frame, also of those without update().
+  // Call in each frame, also in frames without update().
   void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
-  // Goes on by about so much work; its unit is a sample transported along a line.
+  // Continues by about `mostWork`; the unit is a sample transported along a line.
   void update(const RenderScene& scene, Services& services, const LightFieldOptions& options,
               uint64_t mostWork);
 
   bool isDone() const override;
-  // Share of the partners of the first set that are those of now.
+  // Share of the partners of the first set that are up to date.
   float prepared() const { return table_.shareCurrent(); }
-  // Partners of all sets that are still to be found, about.
+  // Approximate number of missing partners of all sets.
   uint64_t samplesLeft() const;
   uint32_t version() const override { return version_; }
   uint32_t texelVersion() const override { return ground_.version(); }
@@ -59,17 +59,17 @@ class LightField final : public TexelIrradiance {
   const std::vector<vec3>& reflected() const override { return reflected_; }
   vec3 skyTowards(const vec3& direction) const override;
   const TexelSet& texels() const override { return ground_.set(); }
-  // Of the first set.
+  // Directions of the first set.
   const FieldDirections& directions() const { return directions_; }
   std::span<const FieldReceiver> receivers() const { return receivers_; }
   const PartnerTable& partners() const { return table_; }
-  // What partners send to irradiance() [W/(m² sr)], by PartnerNumbers.
+  // Radiance of partners that contributes to irradiance() [W/(m² sr)], by PartnerNumbers.
   const PartnerRadiance& sent() const { return sent_; }
   FieldGeometry geometryOf(const RenderScene& scene, const RayCaster& rays) const {
     return geometryOf(scene, rays, directions_, 0);
   }
 
-  // Of the last update.
+  // Work of the last update.
   struct Counts {
     PartnerCounts partners;
     uint64_t lampRays = 0;
@@ -106,19 +106,19 @@ class LightField final : public TexelIrradiance {
   SenderBlocks blocks_;
   std::vector<vec3> albedo_;  // by texel
   TexelLight lamps_;
-  // What partners send [W/(m² sr)], by PartnerNumbers: the sky, and lamps that send their light
-  // along the field; for the last bounce, texels and what is shown of these.
+  // Radiance of partners [W/(m² sr)], by PartnerNumbers. sources_: the sky, and lamps that send
+  // light along the field. sent_: for the last bounce, texels and the shown part of sources_.
   PartnerRadiance sources_, sent_;
   std::vector<vec3> lampLight_;        // irradiance by lamps and suns, by texel [W/m²]
   FieldSums sourceSums_, bounceSums_;  // of the first set
-  FieldSums setSums_;                  // of the other sets so far: what is shown
-  size_t nextOfSets_ = 0;              // direction of the other sets
-  std::vector<vec3> former_;           // light of before, while partners are found from nothing
+  FieldSums setSums_;                  // sums of the other sets so far, of the shown light
+  size_t nextOfSets_ = 0;              // next direction of the other sets
+  std::vector<vec3> former_;           // previous light, while all partners are computed again
   std::vector<vec3> irradiance_;       // by texel
-  std::vector<vec3> bounced_;          // irradiance by all bounces but the last, by block [W/m²]
-  std::vector<vec3> reflected_;        // by texel, without the last bounce [W/m²]
-  bool hasSources_ = false;            // sourceSums_ are those of now
-  bool isLit_ = false;                 // irradiance_ is that of now
+  std::vector<vec3> bounced_;    // irradiance by all bounces except the last, by block [W/m²]
+  std::vector<vec3> reflected_;  // by texel, without the last bounce [W/m²]
+  bool hasSources_ = false;      // sourceSums_ are up to date
+  bool isLit_ = false;           // irradiance_ is up to date
   uint32_t version_ = 0;
   Counts counts_;
 };

@@ -1,6 +1,7 @@
-// Where a grid of parallel lines crosses the surface: all crossings of each line, in order (paper
-// 5, section 2.1: a parallel subfield). In place of the paper's lists of faces sorted for each
-// direction, lines keep their own crossings, so that triangles may intersect and overlap.
+// Intersections of a grid of parallel lines with the surface: all crossings of each line, in order
+// (paper 5, section 2.1: a parallel subfield). Instead of the lists of faces in the paper, sorted
+// for each direction, each line stores its own crossings, so that triangles may intersect and
+// overlap.
 #pragma once
 
 #include <span>
@@ -10,8 +11,8 @@
 
 namespace lamplighter {
 
-// Lines along `along` through the middles of the cells of a grid. Anchored at the origin of world
-// space, so that an object that moves changes no line.
+// Lines along `along` through the centres of the cells of a grid. The grid is anchored at the
+// origin of world space, so that moved objects do not change lines.
 struct LineGrid {
   vec3 across, up, along;  // unit, right-handed, world space
   float cell = 1.0f;       // side [m]
@@ -24,14 +25,14 @@ struct LineGrid {
   }
 };
 
-// A triangle seen along the lines: what is linear on it, at the origin of the grid, and by cell to
-// the right and upwards.
+// A triangle projected along the lines. Linear functions on it: value at the origin of the grid,
+// and increments per cell to the right and upwards.
 struct LineTriangle {
   vec3 depth{0.0f};              // [m]
   std::array<vec2, 3> texels{};  // in the rectangle of the object
   uint32_t object = 0;
   bool hasTexels = false;
-  bool facesAlong = false;  // its front side looks along the lines
+  bool facesAlong = false;  // its front side faces along the lines
 
   float depthAt(const vec2& cell) const { return depth.x + depth.y * cell.x + depth.z * cell.y; }
   vec2 texelsAt(const vec2& cell) const {
@@ -41,18 +42,18 @@ struct LineTriangle {
 
 struct LineCrossing {
   float depth = 0.0f;
-  uint32_t triangle = 0;  // of those that some line meets
+  uint32_t triangle = 0;  // index among the triangles that a line meets
 };
 
 class LineRaster {
  public:
-  // Finds the crossings of all triangles.
+  // Computes the crossings of all triangles.
   void draw(const RenderScene& scene, const FieldSurface& surface, const LineGrid& grid);
 
   const LineGrid& grid() const { return grid_; }
-  // By LineCrossing::triangle.
+  // The triangle with number LineCrossing::triangle.
   const LineTriangle& triangle(uint32_t number) const { return triangles_[number]; }
-  // Of the line of a cell, from the smallest depth on.
+  // Crossings of the line of a cell, by ascending depth.
   std::span<const LineCrossing> at(int x, int y) const;
   size_t crossings() const { return crossings_.size(); }
 
@@ -68,11 +69,11 @@ class LineRaster {
                  const Corners& p);
 
   LineGrid grid_;
-  glm::ivec2 low_{0}, size_{0};  // of the window of cells
-  std::vector<vec3> positions_;  // of the scene, in cells and along the lines
+  glm::ivec2 low_{0}, size_{0};  // window of cells
+  std::vector<vec3> positions_;  // positions of the scene, in cells and along the lines
   std::vector<LineTriangle> triangles_;
   std::vector<Run> runs_;
-  std::vector<uint32_t> starts_;  // by cell, and one more
+  std::vector<uint32_t> starts_;  // by cell, plus one entry
   std::vector<LineCrossing> crossings_;
 };
 

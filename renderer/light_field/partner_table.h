@@ -1,4 +1,4 @@
-// The partners of all texels in all directions, kept: found over several frames, direction by
+// Table of the partners of all texels in all directions, computed over several frames, direction by
 // direction.
 #pragma once
 
@@ -8,29 +8,30 @@
 
 namespace lamplighter {
 
-// How many directions are found at a time.
+// Number of directions that are computed at a time.
 inline constexpr size_t kDirectionsATime = 8;
-// The order in which directions are found: consecutive ones are far from each other.
+// The order in which directions are computed: consecutive ones are far apart.
 size_t spreadDirection(size_t place, size_t directions);
-// In samples transported along lines. `triangles`: drawn, counted once for each direction.
+// Work in samples transported along lines. `triangles`: drawn triangles, counted once per
+// direction.
 uint64_t workOf(const PartnerCounts& counts, size_t triangles);
 
 class PartnerTable {
  public:
-  // Forgets everything.
+  // Discards all partners.
   void restart(size_t receivers, size_t directions);
-  // All partners are to be found again; until then the old ones stay.
+  // Marks all partners as outdated; the old ones are used until they are computed again.
   void outdate();
-  // Goes on by about so much work; its unit is a sample transported along a line.
+  // Continues by about `mostWork`; the unit is a sample transported along a line.
   PartnerCounts goOn(const FieldGeometry& geometry, uint64_t mostWork);
-  // Whether all partners are those of now.
+  // Whether all partners are up to date.
   bool isDone() const { return current_ == stamps_.size(); }
-  // Whether all are found, maybe of before.
+  // Whether all partners are known, possibly outdated ones.
   bool isFull() const { return known_ == stamps_.size(); }
   float shareKnown() const { return shareOf(known_); }
   float shareCurrent() const { return shareOf(current_); }
 
-  // Those that are found, by direction.
+  // The known partners, by direction.
   std::vector<PartnerRow> rows() const;
 
   size_t bytes() const { return partners_.size() * sizeof(uint32_t); }
@@ -43,10 +44,10 @@ class PartnerTable {
   size_t receivers_ = 0;
   std::vector<uint32_t> partners_;   // by direction, then by receiver
   std::vector<uint32_t> stamps_;     // by direction: the geometry of its partners; 0: none
-  uint32_t geometry_ = 1;            // of now
+  uint32_t geometry_ = 1;            // current version of the geometry
   size_t known_ = 0, current_ = 0;   // directions
-  size_t next_ = 0;                  // where to go on, in the order of finding
-  std::vector<LineRaster> rasters_;  // kept for their memory
+  size_t next_ = 0;                  // next direction, in the order of computation
+  std::vector<LineRaster> rasters_;  // reused to avoid allocations
 };
 
 }  // namespace lamplighter

@@ -1,7 +1,7 @@
-// Smooth edges before a picture has settled: subpixel reconstruction antialiasing. Rays find what
-// share of a pixel each of the surfaces at an edge covers, and the pixel becomes the mean of the
-// pixels around it that show these surfaces. No light is computed for that. While objects move
-// before a still camera, only the edges that they change are found anew.
+// Antialiasing of edges before a picture has settled: subpixel reconstruction antialiasing. Rays
+// find the share of a pixel that each surface at an edge covers, and the pixel becomes the weighted
+// mean of the surrounding pixels that show these surfaces. No light is computed for that. While
+// objects move and the camera does not, only changed edges are traced again.
 //
 // After Chajdas, McGuire and Luebke, "Subpixel Reconstruction Antialiasing for Deferred Shading",
 // 2011: geometry at more samples than shading.
@@ -23,25 +23,25 @@ class EdgeResolve {
   void restart();
 
   // Traces rays for the next edges of the view, a limited number in each call. Call it in each
-  // frame in which the view is that of the frame before; if it is another one, or after frames
-  // without a call in which surfaces changed, restart(). Draws the G-buffer of the view without a
-  // shift if there is something to find. Returns the rays traced.
+  // frame in which the view has not changed. Call restart() if the view changed, or if surfaces
+  // changed in frames without a call. Draws the G-buffer of the view without a subpixel shift if
+  // edges are missing. Returns the number of rays.
   uint64_t findMore(const FrameInputs& in);
   bool isDone() const { return !rows_.empty() && next_ == rows_.size(); }
 
-  // `picture`, in main memory, with smooth edges as far as they were found. `withLights`: also
-  // where the sky or a lamp is seen beside.
+  // Returns `picture` (in main memory) with antialiasing of the edges found so far. `withLights`:
+  // also at borders of the sky and of lamps.
   std::shared_ptr<RadianceImage> resolved(const std::shared_ptr<RadianceImage>& picture,
                                           bool withLights);
 
  private:
   struct Edge {
     int x = 0;
-    // How many samples of the pixel show what the pixels around it show, row by row; 4: the pixel
-    // itself.
+    // By pixel of the 3 × 3 neighbourhood, row by row: number of samples that show the same
+    // surface; index 4 is the pixel itself.
     std::array<uint8_t, 9> samples{};
     bool isTraced = false;
-    bool isAtLight = false;  // the sky or a lamp is seen in one of these pixels
+    bool isAtLight = false;  // one of these pixels shows the sky or a lamp
   };
   void findEdges(const FrameInputs& in);
   struct Changes {
@@ -52,9 +52,9 @@ class EdgeResolve {
 
   std::vector<std::vector<Edge>> rows_;  // of the picture, from the top; empty: not begun
   size_t next_ = 0;                      // the first row without samples
-  std::vector<uint32_t> keys_;           // by pixel: what it shows
-  std::vector<uint64_t> revisions_;      // of the G-buffer then, by tile
-  // The last result, what it was made of, and how many rows of it are smooth.
+  std::vector<uint32_t> keys_;           // by pixel: key of the surface that it shows
+  std::vector<uint64_t> revisions_;      // by tile: revision of the G-buffer for keys_
+  // The last result, its input, and the number of its antialiased rows.
   std::shared_ptr<RadianceImage> result_, from_;
   size_t smoothRows_ = 0;
   bool withLights_ = true;

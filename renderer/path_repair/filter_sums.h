@@ -1,4 +1,4 @@
-// What ResidualFilter takes weighted means of (surface_mean.h), by pixel.
+// Per-pixel values that ResidualFilter averages (surface_mean.h).
 #pragma once
 
 #include <algorithm>
@@ -8,21 +8,23 @@
 
 namespace lamplighter {
 
-// Residuals, the picture and the albedo: the quotients are those of a white surface. The noise of
-// paths grows with the albedo, so bright surfaces do not count more than dark ones beside them.
+// Residuals, the picture and the albedo, divided by the albedo as for white surfaces. The noise of
+// paths grows with the albedo, so without the division bright surfaces would have more weight than
+// dark ones beside them.
 struct ResidualSums {
-  // Neighbours in a coarse band share paths: their mean has so much more variance than that of
-  // independent ones.
+  // Neighbours in a coarse band share paths: their mean has a larger variance than that of
+  // independent ones, by this factor.
   static constexpr float kCorrelation = 1.78f;
 
   Halves tame;
-  vec3 excess{0.0f};  // of both halves: what was bounded, which only the widest mean gets
+  vec3 excess{
+      0.0f};  // of both halves: the part above the bound, which is added only to the widest mean
   vec3 picture{0.0f};
   vec3 albedo{0.0f};
-  float variance = 1.0f;  // of the mean, with the variance of a pixel 1
+  float variance = 1.0f;  // variance of the mean, if the variance of one pixel is 1
 
-  // Weight of a neighbour, to 1: the mean of fewer pixels is noisier. Otherwise thin bars near a
-  // wall leave copies of their noise on it, at the distance of a step.
+  // Weight of a neighbour, at most 1: the mean of fewer pixels is noisier. Otherwise thin bars near
+  // a wall leave copies of their noise on it, at the distance of a step.
   float trust(const ResidualSums& neighbour) const {
     return std::min(variance / neighbour.variance, 1.0f);
   }
@@ -46,7 +48,7 @@ struct ResidualSums {
   }
 };
 
-// Squares of the usual difference between the halves and of the usual residual, of a white surface.
+// Mean squares of the difference between the halves and of the residual, for a white surface.
 struct ResidualBounds {
   float difference = 0.0f, residual = 0.0f;
 
@@ -62,13 +64,15 @@ struct ResidualBounds {
   }
 };
 
-// Of a band of the residual: what both halves have in common, the power of their mean, its noise.
+// Powers of a band of the residual: common to both halves, of their mean, and of the noise of the
+// mean.
 struct BandPowers {
   float common = 0.0f, mean = 0.0f, noise = 0.0f;
-  float share = 1.0f;  // sum of squared weights: one by the number of independent pixels
-  // The common share of each pixel, -1 to 1: single bright paths count no more than others.
+  float share = 1.0f;  // sum of squared weights: the reciprocal of the number of independent pixels
+  // Mean over the pixels of the common share of power, -1 to 1, in which single bright paths have
+  // no larger weight than others.
   float agreement = 0.0f;
-  // The power of the same band of the picture, and its product with the residual.
+  // The power of the same band of the picture, and its scalar product with the residual.
   float picture = 0.0f, withPicture = 0.0f;
 
   BandPowers() = default;

@@ -1,4 +1,4 @@
-// Two estimates that share no random numbers: what both have in common is no noise.
+// Two estimates that share no random numbers: a signal that both have in common is not noise.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,11 @@ struct Halves {
   vec3 half() const { return 0.5f * (first - second); }
 };
 
-// Over many pixels: whether the halves differ from zero in the same way, or by noise.
+// Statistical test over many pixels: whether the halves differ from zero by a common signal or by
+// noise.
 class Evidence {
  public:
-  // `independence`: of so many pixels that share no noise with others this one counts as.
+  // `independence`: number of statistically independent pixels that this one counts as.
   void add(const Halves& h, float independence = 1.0f) {
     const float mean = glm::dot(h.mean(), h.mean()), half = glm::dot(h.half(), h.half());
     if (!(mean + half > 0.0f)) return;
@@ -25,9 +26,9 @@ class Evidence {
     pixels_ += 1.0;
     independent_ += static_cast<double>(independence);
   }
-  // 0: by noise, or that cannot be told. 1: in the same way, in all pixels.
+  // 0: noise, or undecided. 1: common signal in all pixels.
   float share() const {
-    constexpr double kSure = 2.0;  // standard deviations of what noise has in common by chance
+    constexpr double kSure = 2.0;  // standard deviations of the agreement of noise by chance
     if (!(independent_ > 0.0)) return 0.0f;
     const double mean = agreement_ / pixels_;
     const double chance = kSure * (1.0 - mean) / std::sqrt(independent_);

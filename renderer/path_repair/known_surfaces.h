@@ -1,4 +1,4 @@
-// Light that a method keeps on surfaces, where paths of repair end.
+// Light that a method stores on surfaces and at which paths of repair may end.
 #pragma once
 
 #include "renderer/methods/path_tracer/known_light.h"
@@ -8,7 +8,7 @@ namespace lamplighter {
 
 class KnownSurfaces final : public KnownLight {
  public:
-  // Refers to its argument.
+  // Keeps a reference to its argument.
   explicit KnownSurfaces(const MirroredLight& light) : light_(light) {}
 
   // Not near corners or mirrors, where the stored light is coarser than the spread of the paths.

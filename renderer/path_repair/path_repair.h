@@ -1,5 +1,5 @@
-// Repairs a picture by paths of the reference: it shows the picture plus what the paths find
-// missing, as far as their noise allows to tell. It converges to the reference.
+// Repairs a picture with paths of the reference: adds the missing light that the paths find, except
+// where it cannot be told from noise. Converges to the reference.
 #pragma once
 
 #include <algorithm>
@@ -19,18 +19,19 @@ namespace lamplighter {
 class PathRepair {
  public:
   struct Options {
-    int paths = 0;  // for each pixel, an even number
+    int paths = 0;  // per pixel; an even number
     PathTracerOptions path;
-    // The picture has not settled. It may be another in each call. Few paths are traced.
+    // The picture has not settled and may differ in each call. Few paths are traced.
     bool isPreview = false;
   };
 
   void restart() { *this = PathRepair(); }
-  // Does work that takes as long as at most `most` rows of paths, and returns it. `live`: the
-  // picture. `surfaces`: light on surfaces at which paths may end, of the same scene; null: none.
-  // Starts anew if the scene, the view or the kind of paths is another than in the last call, or if
-  // there are more paths than wanted; then draws the G-buffer of the view, without a shift. If only
-  // the picture is another, its light on surfaces counts as another, too: other paths are kept.
+  // Continues the work by an amount that takes as long as at most `most` rows of paths; returns the
+  // amount. `live`: the picture. `surfaces`: light on surfaces of the same scene, at which paths
+  // may end; null: none. Starts again if the scene, the view or the kind of paths changed since the
+  // last call, or if there are more paths than wanted; then draws the G-buffer of the view without
+  // a subpixel shift. If only the picture changed, its light on surfaces counts as changed, too,
+  // and only paths that did not end at it are kept.
   int goOn(const FrameInputs& in, const Options& options,
            const std::shared_ptr<RadianceImage>& live, const MirroredLight* surfaces, int most);
 
@@ -43,10 +44,10 @@ class PathRepair {
     const bool isNew = filter_ && mostShown_ < whole_.paths;
     return isWrong_ && (whole_.paths < std::min(wanted, kQuickPaths) || isNew);
   }
-  int paths() const { return whole_.paths + ended_.paths; }  // of each pixel
+  int paths() const { return whole_.paths + ended_.paths; }  // per pixel
   uint64_t takeRays() { return std::exchange(rays_, 0); }
-  // Null until there is one. If it is not of a preview, its bits depend on the number of paths
-  // alone.
+  // The repaired picture; null if there is none yet. If it is not a preview, its bits depend only
+  // on the number of paths.
   const std::shared_ptr<RadianceImage>& image() const { return repaired_; }
 
  private:
@@ -75,24 +76,25 @@ class PathRepair {
 
   std::shared_ptr<RadianceImage> live_;  // null: not begun
   bool isPreview_ = false, endsAtSurfaces_ = false;
-  bool isWrong_ = true;  // the picture, as far as the last filter of whole_ can tell
+  bool isWrong_ = true;  // whether the last filter of whole_ found a large error of the picture
   View view_;
   PathTracerOptions path_;
   RepairGuides guides_;
   LightSet lights_;
-  // Of each half, by pixel: the first rays at the sky or a lamp met nothing else.
+  // By half and pixel: the first rays of a pixel that shows the sky or a lamp hit nothing else.
   std::vector<uint8_t> hasLightAlone_[2];
-  // What paths see that end nowhere, and that end at known light, and what that light lacks: by
-  // fewer paths, because it is the same for many pixels.
+  // Sums of complete paths, of paths that end at known light, and of the error of known light; the
+  // last with fewer paths, because it is similar for many pixels.
   PathSums whole_, ended_, missing_;
-  int row_ = 0;  // from which on the next paths are missing
-  // While the first path of each half is traced: block by block, of one pixel of each. Then null.
+  int row_ = 0;  // first row without the next paths
+  // While the first path of each half is traced: one pixel of each block after the other. Then
+  // null.
   std::unique_ptr<CoarsePreview> coarse_;
-  int cell_ = 0;                            // which of the pixels of a block
+  int cell_ = 0;                            // number of pixels of each block that are traced
   std::unique_ptr<ResidualFilter> filter_;  // of missing_, then of all_; or of whole_
-  std::optional<Image> lacking_;            // what known light lacks, while all_ is filtered
-  PathSums all_;                            // of whole_, without lacking_, and of ended_
-  int shown_ = 0, mostShown_ = 0;           // paths of repaired_, of this picture and of any
+  std::optional<Image> lacking_;   // the filtered error of known light, while all_ is filtered
+  PathSums all_;                   // sum of whole_, minus lacking_, and of ended_
+  int shown_ = 0, mostShown_ = 0;  // number of paths in repaired_; the maximum since the start
   uint64_t rays_ = 0;
   std::shared_ptr<RadianceImage> repaired_;
 };

@@ -1,4 +1,4 @@
-// Sums of paths by pixel, in two halves that share no random numbers, and how much they vary.
+// Sums of paths by pixel, in two halves that share no random numbers, and their variance.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@ namespace lamplighter {
 
 class PathSums {
  public:
-  // Consecutive paths of a half that are stratified together: the variance is that of their means.
+  // Number of consecutive paths of a half that are stratified together: the variance is estimated
+  // from the means of such groups.
   static constexpr int kGroup = 4;
 
   PathSums() = default;
@@ -35,8 +36,8 @@ class PathSums {
     weight += 1.0f;
     if (paths % (2 * kGroup) == 0) groups += 2.0f;
   }
-  // How much one path differs from others: mean square over the picture. Of as many paths in both
-  // halves.
+  // Mean square difference between paths, over the picture. Both halves must have the same number
+  // of paths.
   double noise() const {
     double sum = 0.0;
     for (size_t i = 0; i < squares_.size(); ++i) {
@@ -67,7 +68,7 @@ class PathSums {
     weight *= factor;
     groups *= factor;
   }
-  // The paths of another. All groups of this must be complete.
+  // Adds the paths of another. All groups of this must be complete.
   void add(const PathSums& other) {
     for (size_t i = 0; i < squares_.size(); ++i) {
       first.pixels[i] += other.first.pixels[i];
@@ -80,7 +81,7 @@ class PathSums {
     groups += other.groups;
   }
   bool knowsVariance() const { return groups >= 4.0f; }
-  // Of the mean of all paths of a pixel; the sum of the channels. From complete groups.
+  // Variance of the mean of all paths of a pixel, summed over the channels, from complete groups.
   float variance(size_t pixel) const {
     const float n = groups;
     constexpr auto size = static_cast<float>(kGroup);
@@ -94,12 +95,12 @@ class PathSums {
 
   Image first, second;  // sums of each half
   int paths = 0;
-  float weight = 0.0f;  // of all paths; unless they are scaled, their number
-  float groups = 0.0f;  // weight of those that are complete
+  float weight = 0.0f;  // weight of all paths: their number, unless scaled
+  float groups = 0.0f;  // weight of the complete groups
 
  private:
-  std::vector<float> squares_;  // of sums of groups, by pixel
-  Image groups_[2];             // of the halves: groups that are not complete
+  std::vector<float> squares_;  // by pixel: squares of the sums of groups
+  Image groups_[2];             // by half: sums of incomplete groups
 };
 
 }  // namespace lamplighter

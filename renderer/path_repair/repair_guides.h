@@ -1,4 +1,4 @@
-// What a pixel shows, by which a residual is shared among pixels.
+// Guides of the filter by pixel: the surfaces among whose pixels a residual is averaged.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,18 @@ namespace lamplighter {
 
 struct RepairGuides {
   int width = 0, height = 0;
-  // By pixel; world space. Zero normals where the sky or a lamp is seen, and beside: a pixel at
-  // their border shows some of their brightness, which it must not share with others.
+  // By pixel; world space. Zero normals at pixels that show the sky or a lamp, and at their
+  // neighbours: a pixel at their border shows some of their brightness, which must not be spread to
+  // others.
   std::vector<vec3> position;  // [m]
   std::vector<vec3> normal;
-  std::vector<vec3> albedo;      // by which the residual is divided: never 0
+  std::vector<vec3> albedo;      // divisor of the residual: never 0
   std::vector<float> footprint;  // side of a pixel at its distance [m]
 
   RepairGuides() = default;
-  // Whether the sky or a lamp is seen, or beside.
+  // Whether the pixel shows the sky or a lamp, or is a neighbour of such a pixel.
   bool isAtLight(int x, int y) const { return normalAt(x, y) == vec3(0.0f); }
-  // Of such a pixel: whether there are others within two pixels.
+  // For such a pixel: whether pixels of surfaces are within two pixels.
   bool isAtBorder(int x, int y) const;
   // `white`: surfaces are shown white.
   RepairGuides(const GBufferView& gbuffer, const View& view, bool white);

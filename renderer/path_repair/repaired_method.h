@@ -1,4 +1,4 @@
-// Methods whose settled pictures are repaired by paths of the reference.
+// Adds repair by paths of the reference to methods.
 #pragma once
 
 #include "renderer/base/parameter_table.h"
@@ -7,13 +7,13 @@
 namespace lamplighter {
 
 struct RepairParameters {
-  int repair = 256;  // paths for each pixel; used only if the caller allows refinement
+  int repair = 256;  // paths per pixel; used only if the caller allows refinement
 };
 const ParameterTable<RepairParameters>& repairParameters();
 
-// The method with repair added: its parameter, statistics and stage come after those of the method.
-// The method must have the parameters of PathParameters and SurfaceParameters, and show all light
-// that the path tracer finds with them.
+// Returns the method with repair added: the parameter, statistics and stage of repair follow those
+// of the method. The method must have PathParameters and SurfaceParameters, and must show all light
+// that the path tracer computes with them.
 MethodInfo repaired(MethodInfo method);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// Estimates what a picture lacks from two noisy estimates that share no random numbers.
+// Estimates the residual of a picture from two noisy estimates that share no random numbers.
 #pragma once
 
 #include <functional>
@@ -13,28 +13,29 @@
 namespace lamplighter {
 
 // The residual, truth minus picture, is divided into bands of detail by a joint bilateral filter
-// over normals, planes and albedo. Each band is weighed at each pixel by the share of its power
-// that both halves have in common (Wiener); what one has alone is noise. The more paths, the more
-// of the detail is shown: in the limit all. Where the noise hides a residual, the picture stays as
-// it is, but for patterns of the picture that the paths around do not have at all.
+// over normals, planes and albedo. Each band is weighted at each pixel by the share of its power
+// that both halves have in common (Wiener filter); the rest is noise. More paths show more detail,
+// in the limit all of it. Where the noise hides the residual, the picture does not change, except
+// for patterns of the picture that the surrounding paths do not have.
 class ResidualFilter {
  public:
-  // What paths are an estimate of: the truth, or its difference to the picture.
+  // What paths estimate: the truth, or its difference from the picture.
   enum class Estimate : uint8_t { truth, residual };
-  // All arguments must stay as they are until the filter is done.
+  // All arguments must stay valid and unchanged until the filter is done.
   ResidualFilter(const RepairGuides& guides, const Image& live, const PathSums& sums,
                  Estimate estimate = Estimate::truth);
   ~ResidualFilter();
   ResidualFilter(const ResidualFilter&) = delete;
   ResidualFilter& operator=(const ResidualFilter&) = delete;
 
-  // Goes through the picture many times, a number of rows in each call. Returns how many.
+  // Filters up to `mostRows` rows per call, in many passes over the picture. Returns the number of
+  // rows.
   bool isDone() const { return next_ == steps_.size(); }
   int step(int mostRows);
-  // When it is done: by how much the picture differs from the truth in coarse bands, relative and
-  // in the root mean square, as far as that is no noise.
+  // When it is done: relative root mean square error of the picture in coarse bands, without the
+  // part that may be noise.
   float error() const;
-  // Once, when it is done: the residual [W/(m² sr)].
+  // Call once, when it is done: returns the residual [W/(m² sr)].
   Image takeResidual() { return std::move(residual_); }
 
  private:
@@ -69,24 +70,24 @@ class ResidualFilter {
   const Image& live_;
   const PathSums& paths_;
   Estimate estimate_;
-  std::vector<Step> steps_;  // each for all rows
+  std::vector<Step> steps_;  // each step covers all rows
   size_t next_ = 0;
-  int row_ = 0;  // from which on the next step is missing
+  int row_ = 0;  // first row without the next step
   Image residual_;
   // Sums of squares of the picture and, for pixels that show surfaces, of the difference of the
   // halves.
   double light_ = 0.0, surfaceLight_ = 0.0, surfaceNoise_ = 0.0;
   double borderCommon_ = 0.0, borderPower_ = 0.0;  // of pixels that show no surface
-  Evidence band_;                                  // of the last band, over the whole picture
-  double error_ = 0.0;                             // its square, times the pixels
+  Evidence band_;       // evidence of the last band, over the whole picture
+  double error_ = 0.0;  // square of the error, times the number of pixels
   float windowVariances_ = 0.0f;
-  std::vector<Halves> tame_, smooth_, detail_;  // tame_: all light but single bright paths
+  std::vector<Halves> tame_, smooth_, detail_;  // tame_: all light except single bright paths
   std::vector<vec3> smoothPicture_, pictureDetail_;
   std::vector<ResidualBounds> bounds_, nextBounds_;
   std::vector<ResidualSums> sums_, nextSums_;
   std::vector<BandPowers> powers_, nextPowers_;
   std::vector<BandNoise> noise_, nextNoise_;
-  std::vector<float> variance_;      // of the last means, with that of a pixel 1
+  std::vector<float> variance_;      // variance of the last means, if the variance of a pixel is 1
   std::vector<float> fineVariance_;  // after the fine bands
 };
 

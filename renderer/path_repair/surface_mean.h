@@ -23,7 +23,7 @@ void forSurfaces(const RepairGuides& guides, Rows rows, const F& f) {
   });
 }
 
-// From pixels at a distance of 0 or `step` in each direction: T::add(weight, T) sums, then
+// Means over pixels at a distance of 0 or `step` in each direction: T::add(weight, T) sums, then
 // T::divide(sum of weights). Weights fall with the angle between normals and with the distance off
 // the plane of the pixel, and T::trust(neighbour) scales them. `to`: receives these rows.
 template <typename T>
@@ -33,7 +33,7 @@ void takeSurfaceMeans(const RepairGuides& guides, Rows rows, const std::vector<T
   constexpr std::array<float, 2> kSpline{0.5f, 0.25f};
   forSurfaces(guides, rows, [&](int x, int y, size_t i) {
     const vec3 normal = guides.normal[i], position = guides.position[i];
-    // Points a pixel off the plane share nothing with it; where the step is longer, so many more.
+    // Points with a distance of `step` pixels or more from the plane have no weight.
     const float tolerance = 1.0f / (guides.footprint[i] * static_cast<float>(step));
     T sum = T::nothing();
     float all = 0.0f;

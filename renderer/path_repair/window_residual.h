@@ -1,5 +1,5 @@
-// The residual of a pixel from all pixels of a small window, above all from those that show the
-// same surface.
+// The residual of a pixel from all pixels of a small window, mainly from those that show the same
+// surface.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace lamplighter {
 
-// From 0 to 1: whether pixel `k` shows the plane of pixel `i`, or one that is beside it by less
-// than two pixels and turned like it.
+// From 0 to 1: whether pixel `k` shows the plane of pixel `i`, or a plane with a similar normal at
+// a distance of less than two pixels.
 inline float likeness(const RepairGuides& guides, size_t i, size_t k) {
   const float cosine = glm::dot(guides.normal[i], guides.normal[k]);
   if (cosine <= 0.0f) return 0.0f;
@@ -26,10 +26,10 @@ inline float likeness(const RepairGuides& guides, size_t i, size_t k) {
 }
 
 // For pixels whose neighbours show other surfaces: mouldings, leaves, legs of chairs. Along a
-// moulding there are pixels of the same surface, which the sparse steps of the bands do not meet.
-// Other surfaces probably receive similar light, too, and count a little: the pixel is scaled by
-// the same factor as the mean of the window. `residuals`: by pixel, of pixels that show a surface.
-// `radius`: of the window [pixels].
+// moulding there are pixels of the same surface that the sparse steps of the bands skip. Other
+// surfaces probably receive similar light and have a small weight: the pixel is scaled by the same
+// factor as the mean of the window. `residuals`: by pixel, of pixels that show a surface. `radius`:
+// of the window [pixels].
 inline Halves windowResidual(const RepairGuides& guides, const Image& picture,
                              const std::vector<Halves>& residuals, int x, int y, int radius) {
   constexpr float kLeastLight = 1e-6f, kOther = 0.05f;
