@@ -110,7 +110,7 @@ class LightField final : public TexelIrradiance {
   // light along the field. sent_: for the last bounce, texels and the shown part of sources_.
   PartnerRadiance sources_, sent_;
   std::vector<vec3> lampLight_;        // irradiance by lamps and suns, by texel [W/m²]
-  FieldSums sourceSums_, bounceSums_;  // of the first set
+  FieldSums sourceSums_, bounceSums_;  // sums of the first set
   FieldSums setSums_;                  // sums of the other sets so far, of the shown light
   size_t nextOfSets_ = 0;              // next direction of the other sets
   std::vector<vec3> former_;           // previous light, while all partners are computed again
