@@ -11,7 +11,7 @@ namespace lamplighter {
 
 void addHistoryActions(ActionRegistry& r) {
   r.add({"history.go", "Go to step", "STEP",
-         "Undoes or redoes up to a step of the history. 0 is the level as it was opened.", "",
+         "Undoes or redoes up to a step of the history. 0 is the opened level, without edits.", "",
          [](Session& s, const Arguments& a) {
            const float step = numberOf(a[0]);
            if (!(step >= 0.0f && step < 1e7f) || step != std::floor(step))

@@ -15,7 +15,7 @@ namespace lamplighter {
 struct ProbeJobOptions {
   ProbeGridOptions grid;
   PathTracerOptions paths;       // bounces and seed
-  int samples = 1024;            // paths a probe
+  int samples = 1024;            // paths per probe
   std::filesystem::path output;  // folder; created if it does not exist
   std::string name;              // prefix of the names of all files
 };

@@ -43,7 +43,7 @@ struct Frontend {
   std::function<int(const EditorOptions&)> runEditor;  // exit code
   std::function<int(const ReplayOptions&)> runReplay;  // exit code
   Stopwatch stopwatch;                                 // for the timings in --stats
-  // Called at most once, by a command that can stop cleanly. From then on Ctrl+C does not end the
+  // Called at most once, by a command that can stop cleanly. After that, Ctrl+C does not end the
   // program; the returned function reports true instead.
   std::function<std::function<bool()>()> catchInterrupts;
   std::function<int64_t()> unixTime;  // seconds since 1970, for journals

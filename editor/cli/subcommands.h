@@ -102,7 +102,7 @@ struct BakeOptions : MethodFlags {
   std::string exposure = "auto";  // EV or "auto"; of vertex colours
   bool probes = false, noMaps = false;
   ProbeGridOptions probeGrid;
-  int probeSamples = 1024;  // paths a probe
+  int probeSamples = 1024;  // paths per probe
   int threads = 0;
 };
 int bake(const BakeOptions& options, const Frontend& frontend);

@@ -43,8 +43,8 @@ class ConvergenceMeter {
   // compares the picture of a frame; null: none. Throws InputError if a frame cannot be rendered.
   Convergence measure(const std::function<void()>& edit, const ErrorOf& errorOf,
                       std::optional<double> limit = {});
-  // One frame after an edit, as the editor's window renders it, without waiting for what is to
-  // follow. Returns its seconds; throws likewise.
+  // Performs `edit` and renders one frame as the editor's window does. Returns the seconds of the
+  // frame. Throws InputError if the frame cannot be rendered.
   double frame(const std::function<void()>& edit);
 
  private:

@@ -21,8 +21,8 @@ struct SceneMove {
   bool none() const { return nodes.empty() && glows.empty() && !sky; }
 };
 
-// What must change in `from`. Objects that only one of the scenes has, and everything but
-// transforms and light, stay as they are.
+// The changes of transforms and lights that turn `from` into `to`. Objects that only one of the
+// scenes has, and all other properties, are ignored.
 SceneMove moveTo(const Scene& from, const Scene& to);
 
 // One step of the history, or joins the open one. `move` belongs to the scene of the document.

@@ -19,8 +19,8 @@ class Editing {
   const History& history() const { return history_; }
 
   // Starts an edit that becomes one step, if it changes something. Within another one it joins that
-  // step, but can still be rolled back on its own. An empty label stands for that of the first edit
-  // inside.
+  // step, but can still be rolled back on its own. With an empty label, the step gets the label of
+  // the first edit inside.
   Transaction begin(std::string label);
   // Starts an edit that goes on over several frames without an owner, as in a field of a panel:
   // until commit() or cancel(). Commits what is open.

@@ -17,7 +17,7 @@ struct Copies {
 };
 Copies copyNodes(Editing& editing, const std::vector<NodeId>& ids);
 
-// Throws InputError if a level with so many more objects would have more than 20,000.
+// Throws InputError if the level would have more than 20,000 objects after adding `more`.
 void requireRoomFor(const Scene& scene, size_t more);
 
 // `ids` without those that are below another of them, in the order of Scene::nodes.

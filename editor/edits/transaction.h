@@ -25,7 +25,7 @@ class Transaction {
 
   Node& node(NodeId id);  // throws InputError if it does not exist
   Material& material(int index);
-  Sky& sky();  // from now on the sky is the user's, and not the default of a scene without lights
+  Sky& sky();  // the sky becomes the user's and is no longer the default of a scene without lights
   LightState& skyLight();
   std::vector<LightGroup>& lightGroups();
   std::vector<CameraBookmark>& bookmarks();

@@ -141,7 +141,7 @@ void Explainer::chooseAllSenders() {
 NodeId Explainer::senderObject(int index) const {
   const LightSender& sender = senderRow(index);
   if (sender.key.node == kNoNode)
-    throw InputError("surface " + std::to_string(index), "stands for several objects",
+    throw InputError("surface " + std::to_string(index), "represents several objects",
                      "give one before it");
   return sender.key.node;
 }

@@ -31,7 +31,7 @@ class Explainer {
   // Chooses a surface by its row, or all of them. Both throw InputError if there is none.
   void chooseSender(int row);
   void chooseAllSenders();
-  // The object of a row of senders(). Throws InputError if the row is out of range, or stands for
+  // The object of a row of senders(). Throws InputError if the row is out of range, or represents
   // several surfaces.
   NodeId senderObject(int row) const;
   // An object that blocks the light of a row. Throws InputError if the index is out of range.

@@ -12,7 +12,7 @@ namespace {
 
 // Surfaces that are searched for the one of the point.
 constexpr int kMostHits = 8;
-// The search begins and ends so many offsets of rays from the point.
+// Range of the search on both sides of the point, as a multiple of the offset of rays.
 constexpr float kSearch = 16.0f;
 
 using Place = LightSender::Place;

@@ -29,7 +29,7 @@ struct LightSender {
   std::string name, material;
   float irradiance = 0.0f;  // that it gives the point [lx]
   vec3 colour{0.0f};        // of this light; the largest component is 1
-  // Strongest first, up to kMostPlaces. Together they give all of the light: each stands for others
+  // Strongest first, up to kMostPlaces. Together they give all of the light: each represents others
   // near it.
   std::vector<Place> places;
   static constexpr size_t kMostPlaces = 64;
@@ -38,7 +38,7 @@ struct LightSender {
 struct LightSenders {
   std::string problem, remedy;             // why they are not known, and what helps; "": they are
   float irradiance = 0.0f;                 // by bounced light [lx]
-  std::vector<LightSender> rows;           // strongest first; the last one may stand for all others
+  std::vector<LightSender> rows;           // strongest first; the last one may represent all others
   LightSender all;                         // of all surfaces together
   static constexpr size_t kMostRows = 12;  // besides that of all others
   static constexpr float kLeastShare = 1e-3f;  // weaker surfaces have no row

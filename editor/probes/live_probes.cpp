@@ -34,7 +34,7 @@ void LiveProbes::setOn(bool on) {
 void LiveProbes::setOptions(const ProbeGridOptions& options) {
   options_ = options;
   options_.most = kMostNodes;
-  ++surfaces_;  // all are placed and lit anew
+  ++surfaces_;  // all are placed and lit again
   ++lights_;
 }
 

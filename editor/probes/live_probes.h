@@ -1,6 +1,6 @@
 // Light probes of the edited level, by the path tracer over many frames: each frame does a part of
-// the work, and after an edit the probes are found anew one after the other, while the others keep
-// the light that they had.
+// the work. After an edit the probes are computed again one after the other; until then they keep
+// their old light.
 #pragma once
 
 #include <optional>

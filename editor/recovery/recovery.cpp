@@ -100,7 +100,8 @@ Recovered read(const fs::path& folder) {
     ++out.edits;
   }
   if (documentHash(out.document) != hash)
-    out.warning = folder.string() + ": not all of it is as it was; look it over before you save it";
+    out.warning =
+        folder.string() + ": not everything could be recovered; check it before you save it";
   return out;
 }
 

@@ -10,7 +10,8 @@ class Session;
 // Keeps the figures of lights between frames, because visiting every patch is slow on large levels.
 class LightTable {
  public:
-  // Figures are updated after so many frames, and when the picture has settled.
+  // Number of frames between updates of the figures, which are also updated when the picture has
+  // settled.
   static constexpr uint32_t kFrames = 20;
   std::vector<LightRow> rows(const Session& session, LightUnit unit);
 

@@ -236,7 +236,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, const FrameBudg
   return output_;
 }
 
-// Of work in the background, whose result the picture does without.
+// Reports the failure of a background task. The picture lacks its result.
 void Session::tell(const std::exception_ptr& failure) {
   if (!failure) return;
   try {
@@ -247,7 +247,7 @@ void Session::tell(const std::exception_ptr& failure) {
   }
 }
 
-// The document, its history and the last picture stay as they are.
+// The document, its history and the last picture do not change.
 void Session::frameFailed(const std::exception& e, const FrameFailures::Input& input) {
   const std::string before = failures_.why();
   const bool isOnGl = renderer_->backend().info().name == "gl";
@@ -257,8 +257,7 @@ void Session::frameFailed(const std::exception& e, const FrameFailures::Input& i
     output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
   output_.settled = output_.refined = next == FrameFailures::Next::wait;
   if (next != FrameFailures::Next::leaveGl) return;
-  setStatus("The gl backend failed twice: the cpu backend renders from now on",
-            NoticeKind::warning);
+  setStatus("The gl backend failed twice: the cpu backend is used now", NoticeKind::warning);
   renderer_->setBackend(makeCpuBackend());
 }
 

@@ -177,7 +177,7 @@ class Session {
   // Switches between the reference and the method that was shown before.
   void toggleReference();
 
-  // From now on every committed edit is written to a journal in `root` (editor/recovery).
+  // After this call every committed edit is written to a journal in `root` (editor/recovery).
   void keepJournal(const std::filesystem::path& root, int process, Journal::Clock clock);
   CrashRecovery& crashRecovery() { return crashRecovery_; }
   const CrashRecovery& crashRecovery() const { return crashRecovery_; }

@@ -29,7 +29,7 @@ MeshAtlas makeMeshAtlas(std::span<const vec3> positions, std::span<const uint32_
 
 // For files.
 std::vector<uint8_t> bytesOf(const MeshAtlas& atlas);
-// None if the bytes are not those of an atlas of a mesh with so many triangles.
+// Returns none if the bytes are not an atlas of a mesh with `triangles` triangles.
 std::optional<MeshAtlas> meshAtlasOf(std::span<const uint8_t> bytes, size_t triangles);
 
 }  // namespace lamplighter

@@ -76,7 +76,7 @@ class Backend {
   // change. It is not read back.
   virtual std::shared_ptr<RadianceImage> multiplied(const std::shared_ptr<RadianceImage>& picture,
                                                     const std::shared_ptr<const Image>& gains);
-  // Each pixel of the picture minus that of `taken`, likewise.
+  // Each pixel of the picture minus that of `taken`. It is not read back.
   virtual std::shared_ptr<RadianceImage> difference(const std::shared_ptr<RadianceImage>& picture,
                                                     const std::shared_ptr<RadianceImage>& taken);
 

@@ -1,5 +1,5 @@
 // Irradiance at surface points: from the settled VPLs with exact shadows, from the path-traced
-// reference, or from light that is kept on surfaces: interpolated, or gathered.
+// reference, or from light that is stored on surfaces: interpolated, or gathered.
 #pragma once
 
 #include <optional>

@@ -12,9 +12,9 @@ namespace lamplighter {
 namespace {
 
 constexpr uint64_t kRaysAtATime = uint64_t{1} << 24;
-// Surfaces of other objects before that of a texel.
+// Maximum number of surfaces of other objects in front of that of a texel.
 constexpr int kMostCovers = 4;
-// Texels nearer than so many of their sides have the form factors of their quarters.
+// Distance, in sides of the texel, below which the form factors of its quarters are summed.
 constexpr float kNearGather = 6.0f;
 
 std::array<vec3, 4> quarterOf(const SurfaceTexel& texel, size_t k) {
@@ -196,8 +196,8 @@ void GatheredLight::addQuarter(const SurfaceSpot& spot, uint32_t texel, size_t k
     sum.add(polygonFactor(spot.position, spot.normal, corners) / kPi, reflected_[texel]);
 }
 
-// Of several texels some stand for all, each with its own form factor and light: what reflects less
-// is often what is hidden, such as the floor under a table.
+// A few texels represent all texels of the node, each with its own form factor and light: dark
+// texels are often the hidden ones, such as the floor under a table.
 void GatheredLight::addNode(const SurfaceSpot& spot, const TexelTree::Node& node, Sum& sum) const {
   float area = 0.0f;
   forEachTested(tree_, node, [&](uint32_t t) { area += texels_[t].area; });

@@ -14,7 +14,7 @@ namespace {
 // middle, because a vertex may lie on an adjacent wall.
 constexpr float kInwards = 0.02f;
 constexpr float kMostInwards = 0.1f;
-// Contrast is tested at points of an edge that are at most so many shortest edges apart.
+// Maximum distance of the points of an edge at which contrast is tested, in shortest edges.
 constexpr float kTestEdges = 4.0f;
 constexpr int kMostIntervals = 64;     // along an edge
 constexpr int kMostTriangleRows = 16;  // inside of a triangle

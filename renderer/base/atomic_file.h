@@ -11,7 +11,7 @@ namespace lamplighter {
 
 // A file that is written in two steps. The constructor writes it under a temporary name in the same
 // folder; putInPlace() renames it to the target. The destructor deletes the temporary file if that
-// did not happen. Errors throw InputError and leave the previous file as it was.
+// did not happen. Errors throw InputError and do not change the previous file.
 class PendingFile {
  public:
   // Refuses to replace a target that is not a regular file or is write-protected.

@@ -63,8 +63,7 @@ class ContentCache {
   // succeeded. A failure (disk full, no permission) is no error: the result is computed again next
   // time.
   bool save(const ContentKey& key, std::span<const uint8_t> result) const;
-  // Deletes files of this kind, those that were written first, until the rest takes at most so many
-  // bytes.
+  // Deletes the oldest files of this kind until the others take at most `bytes`.
   void keepWithin(uintmax_t bytes) const;
 
   std::filesystem::path fileOf(const ContentKey& key) const;

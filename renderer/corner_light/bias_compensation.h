@@ -35,10 +35,11 @@ class BiasCompensation {
     // Visible surfaces have speculars: this light is added to their diffuse part only.
     bool speculars = false;
     float leastRoughness = 0.1f;
-    // By object: the light between its parts is known from transfer, so that its pixels do not lack
-    // it. Empty: for no object. Must outlive this object.
+    // By object: the light between its parts is known from transfer, so that it is not missing at
+    // its pixels. Empty: for no object. Must outlive this object.
     std::span<const uint8_t> reflectsWithin = {};
-    // By object: what pixels receive directly from it is known (near_lamps.h). Likewise.
+    // By object: the direct light of pixels from it is exact (near_lamps.h). Empty: for no object.
+    // Must outlive this object.
     std::span<const uint8_t> exactLamps = {};
     // To find the light of each group of lights: the group of each VPL, and what each object emits.
     // Must outlive this object. Empty: all is one group.

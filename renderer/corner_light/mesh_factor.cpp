@@ -54,7 +54,7 @@ MeshFactor::MeshFactor(std::span<const vec3> corners, bool bothSides) : bothSide
 }
 
 float MeshFactor::at(const vec3& x, const vec3& n) const {
-  // 1 if a triangle faces x, -1 if it is seen from behind and counts, 0 if it does not count.
+  // 1: the triangle faces x; -1: x sees its back, which emits; 0: it does not count.
   std::array<int8_t, kMostTriangles + 1> facing;
   const size_t triangles = area_.size();
   const float slack = rayEpsilon(x);

@@ -58,12 +58,12 @@ const std::vector<DebugViewInfo>& fixedViews() {
        "The distance between texels of light maps, on the surface.", views::lightMapDensity,
        ofTexels},
       {DebugView::meshEdges, "mesh_edges", "Elements", "",
-       "The elements of surface at whose corners light is kept. Grey ones stand for many small "
-       "triangles.",
+       "The surface elements at whose corners light is stored. A grey element represents many "
+       "small triangles.",
        views::meshEdges, ofElements},
       {DebugView::meshSamples, "mesh_samples", "Light of elements", "",
-       "Where pixels show the light of elements, and where that of records at pixels, as the "
-       "camera rests.",
+       "Where pixels show the light of elements, and where the light of records at pixels, while "
+       "the camera is still.",
        views::meshSamples, ofElements},
       {DebugView::meshContrast, "mesh_contrast", "Contrast of elements", "",
        "How much the light differs between the corners of each element.", views::meshContrast,

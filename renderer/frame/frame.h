@@ -29,8 +29,8 @@ class FrameRenderer {
     LightPart part = LightPart::all;
   };
   // Renders one frame. Throws InputError for an unknown method, and what the method, Embree and the
-  // device throw. After an exception everything that it may have left inconsistent is dropped: the
-  // next call computes it anew.
+  // device throw. After an exception all possibly inconsistent data is discarded; the next call
+  // computes it again.
   GiOutput render(const Request& request);
 
   // Updates scene() and rays() without a picture. The next render() continues from there, with the
@@ -65,7 +65,7 @@ class FrameRenderer {
   StageTimes stageTimes_;
   World world_;
   RenderSceneChanges pending_;  // changes that the backend and the method have not received yet
-  bool hasOtherScene_ = false;  // likewise: the scene was replaced
+  bool hasOtherScene_ = false;  // the scene was replaced, which they have not received yet
   std::string methodName_;
   std::unique_ptr<GiMethod> method_;
   uint32_t frame_ = 0;

@@ -24,14 +24,14 @@ class StorageBuffer {
   StorageBuffer() = default;  // without elements; needs no context
 
   // Sets the number of elements. If it differs, all contents are lost. Throws InputError if a
-  // shader cannot access so many.
+  // shader cannot access `count` elements.
   void resize(size_t count) {
     if (buffer_ && count == size_) return;
     allocate(count, nullptr);
   }
   // Replaces all elements and their number. Does not wait for commands that read the old ones.
   void set(std::span<const T> values) { allocate(values.size(), values.data()); }
-  // Replaces the elements from `first` on.
+  // Replaces elements, beginning with index `first`.
   void update(size_t first, std::span<const T> values) {
     if (values.empty()) return;
     glNamedBufferSubData(buffer_.name(), static_cast<GLintptr>(first * sizeof(T)),

@@ -1,4 +1,4 @@
-// A picture whose colours stand for values, with their meaning.
+// A picture whose colours represent values, with their meaning.
 #pragma once
 
 #include <string>

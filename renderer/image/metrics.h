@@ -17,7 +17,8 @@ struct Metrics {
 // Throws InputError if the sizes differ. `mask`: only pixels with .r > 0.5 count; null: all count.
 Metrics compareImages(const Image& a, const Image& b, const Image* mask = nullptr);
 
-// Metrics::relRmse alone, which costs a fraction of all metrics. Throws likewise.
+// Only Metrics::relRmse, at a fraction of the cost of all metrics. Throws InputError if the sizes
+// differ.
 double relRmse(const Image& a, const Image& b, const Image* mask = nullptr);
 
 // |A−B| relative to mean B, as colours from black (0) to white (≥ 1).

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kPositionSet = 0x0cc1;
 constexpr size_t kWeightsAStep = 256;
-// Groups are looked at triangle by triangle from positions within so many of their radii.
+// Distance, in radii of the group, below which the solid angle is computed triangle by triangle.
 constexpr float kNearRadii = 2.0f;
 // Planes that contain a position: parts of the distance to the farthest corner of the triangle, and
 // of the distance of the position from the origin.

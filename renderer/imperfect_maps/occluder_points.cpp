@@ -114,8 +114,8 @@ bool OccluderPoints::takePositions(std::span<const vec3> view, std::span<const v
   return differs;
 }
 
-// Points stay on their place of their triangle. Where an object was scaled, they stand for more or
-// less area, in proportion to that of the object, until they are drawn again.
+// Points keep their barycentric position in their triangle. After an object was scaled, they
+// represent more or less area, in proportion to that of the object, until they are drawn again.
 void OccluderPoints::follow(const RenderScene& scene, const RenderSceneChanges& changes) {
   std::vector<uint8_t> isMoved(groups_.objects(), 0);
   for (const uint32_t object : changes.movedObjects) isMoved[object] = 1;

@@ -95,7 +95,7 @@ Sight seenAlong(const LineRaster& raster, const glm::ivec2& cell, const vec3& at
   int next = cosine > 0.0f ? 0 : count - 1;
   const int step = cosine > 0.0f ? 1 : -1;
   while (next >= 0 && next < count && behind(crossings[static_cast<size_t>(next)])) next += step;
-  // The own surface must be at the middle of the cell: else something stands between.
+  // The own surface must be at the centre of the cell: otherwise another surface is in front of it.
   const int before = next - step;
   if (before < 0 || before >= count) return Sight::unclear;
   const LineCrossing& last = crossings[static_cast<size_t>(before)];

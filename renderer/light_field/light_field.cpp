@@ -135,7 +135,7 @@ void LightField::update(const RenderScene& scene, Services& services,
   const RayCaster& rays = services.rays();
   if (!isSame) {
     lights_ = LightSet(scene, lights_);
-    // While objects move, light is found anew only where lamps did.
+    // While objects move, light is computed again only if lamps moved, too.
     isLit_ = isLit_ && options == former && changesOnlyPlaces(changes);
     hasSources_ = hasSources_ && !changes.sky && !changes.gains &&
                   (!options.withLamps || changesOnlyPlaces(changes));

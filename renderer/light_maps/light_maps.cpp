@@ -176,7 +176,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     outdated.resize(objects_.size());
     std::iota(outdated.begin(), outdated.end(), 0u);
   }
-  // What shows a new object is found anew in any case.
+  // Everything that shows a new object is updated in any case.
   const bool isRetiled = std::any_of(outdated.begin(), outdated.end(), [&](uint32_t i) {
     return !std::binary_search(fresh.begin(), fresh.end(), i);
   });

@@ -31,7 +31,7 @@ class LightMaps {
     // If the maps would need more memory, the spacing grows everywhere. If even 2×2 texels per
     // patch need too much, there are no light maps.
     uint64_t mostBytes = UINT64_MAX;
-    uint64_t mostTexels = UINT64_MAX;  // likewise: the limit of the backend
+    uint64_t mostTexels = UINT64_MAX;  // limit of the backend, with the same effect
     bool operator==(const Options&) const = default;
   };
 

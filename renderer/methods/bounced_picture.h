@@ -28,7 +28,8 @@ class BouncedPicture {
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture, int antialias,
                                        bool& gbufferIsCurrent);
-  // Whether the light has all rays, and a picture that is the mean of so many is complete.
+  // Whether all rays of the light are traced, and a mean of `antialias` shifted pictures is
+  // complete.
   bool isDone(int antialias) const {
     return light_.isDone() && records_.isDone() &&
            (antialias <= 1 ? still_.isComplete() : isSmooth(antialias));

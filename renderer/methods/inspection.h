@@ -39,7 +39,8 @@ class PatchView {
   };
   virtual Shape shapeOf(uint32_t object, int patch) const = 0;
 
-  // What stands between the patch of the leaf and each light sample: values of Occlusion, by slot.
+  // The occlusion between the patch of the leaf and each light sample: values of Occlusion, by
+  // slot.
   virtual std::span<const uint8_t> states(uint32_t object, int leaf) const = 0;
   Occlusion state(uint32_t object, int leaf, int slot) const {
     return static_cast<Occlusion>(states(object, leaf)[static_cast<size_t>(slot)]);
@@ -76,8 +77,9 @@ class ElementView {
   struct Place {
     uint32_t element = 0;
     vec3 weights{1.0f, 0.0f, 0.0f};  // of its corners
-    bool isCluster = false;          // it stands for many small triangles
-    float trust = 1.0f;  // share of the light of a pixel that is the element's, as the camera rests
+    bool isCluster = false;          // it represents many small triangles
+    float trust = 1.0f;  // share of the light of a pixel that comes from the element while the
+                         // camera is still
   };
   // `weights`: of the second and third corner of the triangle. None where the method keeps no
   // light.

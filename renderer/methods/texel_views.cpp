@@ -14,7 +14,7 @@ namespace {
 
 // White in the view of links.
 constexpr float kManyLinks = 1000.0f;
-// White in the view of segments: so many of one for each pixel of the depth maps.
+// Share of segments per pixel of the depth maps that is shown as white.
 constexpr float kManySegments = 0.25f;
 // White in the view of errors, and the rays of a texel by which they are found.
 constexpr float kLargeError = 0.25f;

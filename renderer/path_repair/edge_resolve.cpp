@@ -86,7 +86,7 @@ void EdgeResolve::restart() {
   result_ = from_ = nullptr;
 }
 
-// Which pixels show something else than at the last call, or an object that moved.
+// Pixels that show another surface than at the last call, or an object that moved.
 EdgeResolve::Changes EdgeResolve::findChanges(const FrameInputs& in, const GBufferView& gbuffer) {
   const cpu::GBuffer& g = gbuffer.packets();
   std::vector<uint8_t> isMoved(in.scene.objects.size(), 0);

@@ -18,21 +18,23 @@ uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0, 
 
 // The first paths of a pixel end nowhere, so that they can be traced before there is known light.
 constexpr int kWholePaths = 16;
-// The relative error from which on a preview is worth its time.
+// Relative error above which a preview is traced.
 constexpr float kLeastError = 0.05f;
-// Of so many paths that end at known light one goes on, to find what that light lacks.
+// One in this number of paths that end at known light is continued, to find the error of that
+// light.
 constexpr int kPathsAWhole = 4;
 // Russian roulette of all paths begins at this bounce.
 constexpr int kSureBounces = 2;
 
-// This number of rows of a step of the filter counts as a row of paths. On average 60 to 90 take as
-// long; some steps are slower.
+// Number of rows of a filter step that count as one row of paths. On average 60 to 90 take as long;
+// some steps are slower.
 constexpr int kFilterRows = 48;
-// The filter and the sums need some 700 bytes for each pixel: larger pictures are not repaired.
+// The filter and the sums need about 700 bytes per pixel: larger pictures are not repaired.
 constexpr size_t kMostPixels = size_t{4} << 20;
 
-// Whether the picture after so many paths is filtered: always half as many more than the last. The
-// few paths of a preview take little longer than the filter, so it shows 2, 4, 8, 12 and 16.
+// Whether the picture is filtered at this number of paths: each time at half as many more than the
+// last time. The few paths of a preview take little longer than the filter, so it shows 2, 4, 8, 12
+// and 16.
 bool isShown(int paths, int last, int all, bool isPreview) {
   const int next = isPreview ? std::min(2 * last, last + 4) : (3 * last + 1) / 2;
   return paths % 2 == 0 && (paths >= all || paths >= next);

@@ -12,46 +12,51 @@ constexpr int kBands = 6;
 // Rounds of bounds on single bright pixels, and the largest step of the means that they are
 // compared with.
 constexpr int kTamings = 2, kTamingStep = 8;
-// A difference between the halves so many times above the usual one around is bounded. Likewise a
-// residual; that bound grows with the number of paths, so that the limit is exact.
+// Differences between the halves are bounded to this multiple of the usual difference around the
+// pixel, and residuals to a multiple of the usual residual; the latter bound grows with the number
+// of paths, so that the limit is exact.
 constexpr float kMostDifference = 3.0f, kMostResidual = 3.0f, kPathsABound = 32.0f;
-// What both halves have in common must be above the noise by so much [variances], and the noise
-// around a pixel counts as so many pixels of the usual noise of the picture. Fine bands need more:
-// there, two bright paths that meet by chance show as a spot. What known light lacks is smooth.
+// Thresholds of the common signal of both halves: how much it must exceed the noise [variances],
+// and how many pixels with the usual noise of the picture are added to the noise around a pixel.
+// Fine bands need larger thresholds, because two bright paths at one pixel by chance are visible as
+// a spot. The error of known light is smooth.
 struct Doubt {
   float variances, usualPixels;
 };
 constexpr Doubt kFineDoubt{2.0f, 4.0f}, kCoarseDoubt{0.75f, 2.0f}, kResidualDoubt{1.0f, 4.0f};
 constexpr int kFineBands = 3;
-// With few paths, more pixels of the usual noise: paths that find nothing show no noise.
+// With few paths, more pixels with the usual noise are added: paths that find no light have no
+// noise.
 constexpr float kUsualPaths = 64.0f;
-// A band is shown from the first number of paths behind a pixel on, and fully from three times as
-// many on: before, two bright paths may meet by chance.
+// Minimum number of paths behind a pixel to show a band; it is fully shown with three times as
+// many. With fewer paths, two bright ones may agree by chance.
 constexpr float kLeastPaths = 16.0f;
 // Pixels that are far darker than the mean of the picture count less in sums over it.
 constexpr double kDark = 0.01;
-// All this is for pictures that are nearly right. Where the halves agree in a coarse band by this
-// share (Evidence), the picture is wrong: then this part of the variances is enough, no usual noise
-// is added, and fewer paths do. Not so in fine bands, whose noise shows as grain.
+// The thresholds above are for pictures with small errors. If the halves agree in a coarse band by
+// this share (Evidence), the error is large: then this fraction of the variances is enough, no
+// usual noise is added, and fewer paths are enough. Not in fine bands, whose noise is visible as
+// grain.
 constexpr float kWrong = 0.1f, kWrongVariances = 0.3f, kWrongPaths = 4.0f;
-// In fine bands the halves are believed where the pixels around agree by so much, less what chance
-// explains: three standard deviations of the agreement of one pixel. Then it is as if the picture
-// were wrong. Not with fewer paths behind a pixel: paths that find nothing agree, too.
+// In fine bands the halves are trusted where the surrounding pixels agree by this much, minus the
+// agreement by chance: three standard deviations of the agreement of one pixel. Then the thresholds
+// for large errors apply. Not with fewer paths behind a pixel, because paths that find no light
+// agree, too.
 constexpr float kAgreement = 0.3f, kByChance = 1.8f, kAgreePaths = 4.0f;
-// The slope of the residual over the picture must be above its noise by so much [variances].
+// The slope of the residual over the picture must exceed its noise by this much [variances].
 constexpr float kSlopeVariances = 9.0f;
-// Of the window that weighs borders [pixels], and by how many variances the halves must agree in
-// it.
+// Radius of the window that weights borders [pixels], and by how many variances the halves must
+// agree in it.
 constexpr int kBorderRadius = 2;
 constexpr float kBorderVariances = 2.0f;
-// What is left of a pixel after all bands must exceed so many of its variances, and more where
-// these are known from few groups of paths.
+// The remaining residual of a pixel after all bands must exceed this many of its variances, and
+// more if these are known from few groups of paths.
 constexpr float kSurePixel = 9.0f, kFewGroups = 10.0f;
 // Pixels whose mean after the fine bands still has this share of their noise have few neighbours
-// that show the same surface: leaves, legs of chairs, edges. From twice that on fewer variances are
-// enough for their own paths.
+// that show the same surface: leaves, legs of chairs, edges. Above twice that share, fewer
+// variances are enough for their own paths.
 constexpr float kAlone = 0.1f, kSureAlone = 2.0f;
-// All pixels of their window together have about so many paths.
+// Approximate number of paths of all pixels of their window together.
 constexpr float kWindowSamples = 600.0f;
 constexpr int kLeastRadius = 2, kMostRadius = 8;  // of the window [pixels]
 // With fewer paths, these pixels are rather scaled as those around them.
@@ -59,13 +64,13 @@ constexpr float kWindowPaths = 32.0f;
 
 float squareOf(const vec3& v) { return glm::dot(v, v); }
 
-// Whether so many paths are at least `least`: 0 up to that, 1 from three times as many on.
+// Soft threshold for a number of paths: 0 up to `least`, 1 from three times `least`.
 float many(float paths, float least) {
   return std::clamp(0.5f * (paths / least - 1.0f), 0.0f, 1.0f);
 }
 
-// Whether a fine band is no noise around a pixel, to 1: the agreement of the pixels there, less
-// what chance explains.
+// Certainty, from 0 to 1, that a fine band is not noise around a pixel: the agreement of the pixels
+// there, minus the agreement by chance.
 float sureness(const BandPowers& p) {
   return std::clamp((p.agreement - kByChance * std::sqrt(p.share)) / kAgreement, 0.0f, 1.0f);
 }

@@ -15,11 +15,11 @@ struct ProbeFileNotes {
   std::string volume;    // name of the file with the volume
   float unit = 1.0f;     // of the grid's lengths [m]: RenderScene::unit
   float padding = 0.0f;  // unit of the scene
-  int samples = 0;       // paths a probe
+  int samples = 0;       // paths per probe
   int bounces = 0;
 };
 
-// JSON. `light`: of all probes of the grid, those that are not valid filled in (fillInvalid).
+// The JSON text. `light`: of all probes of the grid, with invalid ones filled in (fillInvalid).
 // Numbers are the shortest that read back as the same float. Throws InputError if a number is not
 // finite.
 std::string probeText(const ProbeGrid& grid, std::span<const ProbeSh> light,

@@ -13,8 +13,8 @@ namespace lamplighter {
 namespace {
 
 constexpr size_t kRays = 64;
-// Larger shares of the hits are those of a place inside.
-constexpr size_t kInsideShare = 4;  // one in so many
+// A place is inside if back hits are a larger share of its hits than this.
+constexpr size_t kInsideShare = 4;  // as one in this number
 constexpr int kSteps = 6;
 // Directions are up to 0.3 rad from the nearest ray: a plane at the distance of the padding is met
 // at up to this factor of it.

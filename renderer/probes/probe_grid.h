@@ -20,28 +20,28 @@ struct ProbeGridOptions {
 enum class ProbeState : uint8_t {
   valid,
   inside,   // of a wall or an object, or behind the walls of a level
-  near,     // nearer to a surface than the padding, and no better place within reach
-  outside,  // it sees nothing of the level
-  dark      // beside the level, where no light is
+  near,     // nearer to a surface than the padding, without a better place within reach
+  outside,  // no part of the level is visible from it
+  dark      // beside the level, where no light arrives
 };
 inline constexpr int kProbeStates = 5;
 
 struct Probe {
   vec3 position{0.0f};  // world space; moved from its node by at most half the spacing on each axis
   ProbeState state = ProbeState::outside;
-  float open = 1.0f;    // share of the rays from there that meet nothing
-  float behind = 0.0f;  // share that meets backs, also of surfaces that are seen from both sides
+  float open = 1.0f;    // share of the rays from there that hit nothing
+  float behind = 0.0f;  // share that hits back faces, also of double-sided surfaces
   bool isValid() const { return state == ProbeState::valid; }
 };
 
-// Nodes at integer multiples of the spacing in the world, so that they stay where they are when the
-// bounds change.
+// Nodes at integer multiples of the spacing in the world, so that they do not move when the bounds
+// change.
 struct ProbeGrid {
   glm::ivec3 first{0};        // of the node with index 0, in multiples of the spacing
   glm::ivec3 size{0};         // nodes along x, y and z
   float spacing = 0.0f;       // at least that of the options
   std::vector<Probe> probes;  // x varies fastest, then y, then z
-  bool isCoarser = false;     // than the options demand, because of their bound
+  bool isCoarser = false;     // than the options request, because of their limit
 
   size_t indexOf(const glm::ivec3& node) const {
     return (static_cast<size_t>(node.z) * static_cast<size_t>(size.y) +
@@ -58,7 +58,7 @@ struct ProbeGrid {
 // along each axis; none of them is placed yet. No bounds: no nodes.
 ProbeGrid probeNodes(const Bounds& bounds, const ProbeGridOptions& options);
 
-// Finds place and state of one node by 64 rays, and by as many from each place that is tried.
+// Finds the place and the state of one node by 64 rays, and 64 rays from each place that is tried.
 //
 // A back hit is a ray that first meets the back of a surface whose back no camera sees
 // (RenderScene::backIsUnseen), without a front in the same place; other hits are front hits.

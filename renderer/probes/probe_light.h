@@ -14,11 +14,10 @@ namespace lamplighter {
 
 inline constexpr size_t kProbeCoefficients = 9;
 
-// Coefficients of the incident radiance L(ω) [W/(m² sr)] at a point, linear Rec. 709:
-// c(l, m) = ∫ L(ω) Y(l, m)(ω) dω, with ω the direction to where the light comes from, in world
-// space (right-handed, Y up). Real spherical harmonics of order 3 (bands 0 to 2), orthonormal,
-// without the Condon-Shortley phase, at index l(l + 1) + m as in
-// renderer/prt/spherical_harmonics.h:
+// Coefficients of the incident radiance L(ω) [W/(m² sr)] at a point, linear Rec. 709: c(l, m) = ∫
+// L(ω) Y(l, m)(ω) dω, with ω the direction to where the light comes from, in world space
+// (right-handed, Y up). Real spherical harmonics of order 3 (bands 0 to 2), orthonormal, without
+// the Condon-Shortley phase, at index l(l + 1) + m as in renderer/prt/spherical_harmonics.h:
 //   1/2 √(1/π),  1/2 √(3/π) {y, z, x},
 //   1/2 √(15/π) {x y, y z},  1/4 √(5/π) (3 z² − 1),  1/2 √(15/π) x z,  1/4 √(15/π) (x² − y²).
 using ProbeSh = std::array<vec3, kProbeCoefficients>;
@@ -42,18 +41,18 @@ using ProbeSource = std::function<void(std::span<const vec3> places, std::span<P
 // numbers depend on the place, the number of the sample and the seed. Several threads may call it.
 class ProbeReference {
  public:
-  // Refers to scene and rays. Of the options it uses bounces and seed. `before`: the lights of an
-  // earlier state of the scene, from which those that did not change are taken.
+  // Keeps references to scene and rays. Uses the bounces and the seed of the options. `before`: the
+  // lights of an earlier state of the scene; unchanged ones are reused.
   ProbeReference(const RenderScene& scene, const RayCaster& rays, const PathTracerOptions& paths,
                  const LightSet& before = {});
 
   // Adds the samples first … first + count − 1 of a place to their sum.
   void addSamples(const vec3& place, uint32_t first, uint32_t count, ProbeSh& sum) const;
-  // Of punctual lights alone.
+  // Only the light of punctual lights.
   ProbeSh punctualLight(const vec3& place) const;
-  // All of it, by so many samples; powers of two are stratified best.
+  // All light, by `samples` samples; powers of two are stratified best.
   ProbeSh light(const vec3& place, uint32_t samples) const;
-  // Of many places in parallel. Refers to this object.
+  // A ProbeSource for many places in parallel. Keeps a reference to this object.
   ProbeSource source(uint32_t samples) const;
   const LightSet& lights() const { return lights_; }
 
@@ -71,26 +70,26 @@ using ProbeProgress = std::function<bool(int done, int all)>;
 std::vector<ProbeSh> probeLight(const ProbeGrid& grid, const ProbeSource& source,
                                 const ProbeProgress& progress);
 
-// Valid probes where no light arrives at all are in one of two places where none is wanted, because
-// they would darken what is interpolated near walls:
+// Changes the state of valid probes at which no light arrives at all, in two cases in which they
+// would darken interpolated light near walls:
 //
-// - Inside of something that is seen from both sides, and so has no inside by placeProbes(): more
-//   than half of the rays meet backs (Probe::behind). They become inside.
+// - Inside a double-sided object, whose inside placeProbes() cannot detect: more than half of the
+// rays hit back faces (Probe::behind). They become inside.
 // - Beside a level without sky and sun, such as around a closed house: more than half of the rays
-//   meet nothing (Probe::open). They become dark.
+// hit nothing (Probe::open). They become dark.
 //
 // Others stay valid: dark rooms are dark.
 void markUnlit(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid);
 
 // The light at a place by trilinear interpolation between the eight nodes around it (the nearest
-// ones outside of the grid), of valid probes alone: the weights of others are shared out. None if
-// no valid one is there. `light`: of all probes.
+// ones outside the grid), with valid probes only: the weights are normalised. None if none is
+// valid. `light`: of all probes.
 std::optional<ProbeSh> interpolatedLight(const ProbeGrid& grid, std::span<const ProbeSh> light,
                                          const vec3& place);
 
-// Gives each probe that is not valid the mean of those of its up to six neighbours that have light,
-// ring by ring, so that trilinear interpolation does not darken near walls. Without valid probes
-// all is 0.
+// Gives each invalid probe the mean of those of its up to six neighbours that have light,
+// propagated outwards, so that trilinear interpolation does not darken near walls. Without valid
+// probes all are 0.
 void fillInvalid(const ProbeGrid& grid, std::span<ProbeSh> light);
 
 }  // namespace lamplighter

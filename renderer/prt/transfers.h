@@ -32,8 +32,8 @@ class Transfers {
   Transfers(const Transfers&) = delete;
   Transfers& operator=(const Transfers&) = delete;
 
-  // Sets everything that is wanted from now on, in the order of loading or computing. What is no
-  // longer wanted is dropped, and cancelled if it is being computed.
+  // Sets all transfers that are needed now, in the order of loading or computing. Transfers that
+  // are no longer needed are discarded, and cancelled if they are being computed.
   void want(std::vector<Wanted> wanted, const TransferOptions& options);
 
   // Null if it is not ready.

@@ -30,8 +30,8 @@ class LightPaths {
   // by hand loses one in fifteen per frame.
   static constexpr int kFarShare = 5;
 
-  // With more candidates (VplCounts), an update goes on with the paths of so many for each VPL, so
-  // that a drag costs no more; the others wait for the next ones.
+  // With more candidates per VPL than this (VplCounts), an update continues only the paths of this
+  // many, so that a drag does not cost more; the others wait for later updates.
   static constexpr size_t kCandidatesAFrame = 8;
 
   struct Work {        // in the last update()

@@ -9,7 +9,7 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kMostTries = 1000;
-// The candidates' directions use dimensions 1 and up; the decisions use those from here on.
+// The directions of candidates use dimensions from 1; the decisions use dimensions from this one.
 constexpr uint32_t kChanceDimension = 2000;
 // Largest number of the light's own surfaces that a ray may pass.
 constexpr int kMostParts = 8;

@@ -68,7 +68,7 @@ class PathWalker {
   // Walks from the departure until the path ends or has all bounces. Returns the number of rays
   // traced.
   int walk(const Source& source, const Departure& departure, LightPath& path) const;
-  // Traces the steps from index `from` on again; the first of them keeps its ray.
+  // Traces the steps from index `from` to the end again; the first of them keeps its ray.
   int walkOn(const Source& source, LightPath& path, size_t from) const;
   // Traces one ray.
   PathStep step(const vec3& origin, const vec3& direction) const;

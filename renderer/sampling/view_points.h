@@ -17,7 +17,7 @@ struct SeenPoint {
   bool operator==(const SeenPoint&) const = default;
 };
 
-// At most `count` points that the camera sees, from index `first` of their sequence on, evenly
+// At most `count` points that the camera sees, starting at index `first` of their sequence, evenly
 // distributed over the picture and slightly beyond its edges. Each subrange of the result is also
 // evenly distributed. Depends only on scene, view, count and first; of the view's size only the
 // aspect ratio matters.

@@ -144,8 +144,8 @@ struct RenderSceneChanges {
 // scene. Never throws; a scene without nodes has no objects.
 RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes);
 
-// Builds `render` anew in another unit. The result is exact: every length is multiplied by a power
-// of two.
+// Rebuilds `render` in another unit. The result is exact: every length is multiplied by a power of
+// two.
 RenderSceneChanges setUnit(RenderScene& render, const Scene& scene, float unit);
 
 }  // namespace lamplighter

@@ -51,7 +51,7 @@ struct Sky {
   bool isBlack() const;
   // What multiplies the light of the sky: its colour, or the scale of its picture. 1 for gradients.
   vec3 factor() const;
-  // The same sky with another factor. Gradients stay as they are.
+  // The same sky with another factor. Gradients do not change.
   Sky withFactor(float factor) const;
   bool operator==(const Sky& other) const;
 };

@@ -30,8 +30,8 @@ struct FrameBudget {
   int refineUpdates = 0;
   // How many rows of paths it may trace to repair a picture before it has settled; 0: none.
   int previewUpdates = 0;
-  // After a frame of the method, so many frames may do nothing but trace these paths, as long as
-  // the picture is far from settled and far from what they find.
+  // Number of frames after a frame of the method that may only trace these paths, as long as the
+  // picture is far from settled and has a large error.
   int previewFrames = 0;
   // The work on light on surfaces (elements, links or a field), as a share of the usual work of a
   // frame. Not given: the value of the parameter `updates` divided by its default.

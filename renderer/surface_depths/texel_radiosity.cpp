@@ -12,8 +12,8 @@
 namespace lamplighter {
 namespace {
 
-// What memory a texel is expected to take: of each pixel a segment of three bytes for eight texels,
-// and so many links.
+// Expected memory of a texel: for each pixel of its depth map a segment of three bytes per eight
+// texels, and this number of links.
 constexpr size_t kSegmentBytes = 3, kTexelsASegment = 8, kLinksATexel = 500;
 // Texels whose links are found at a time, the work of one in rays besides its tests, and tests of
 // known answer that take as long as a ray.
@@ -28,7 +28,7 @@ float texelSideOf(const RenderScene& scene, const TexelRadiosityOptions& options
   return texelSideFor(scene, options.texel, options.memory / bytes);
 }
 
-// Finds the texels anew if surfaces are at other places. While surfaces move, the old texels stay.
+// Rebuilds the texels if surfaces have moved. While surfaces move, the old texels are kept.
 void TexelRadiosity::takeGeometry(const RenderScene& scene, Services& services,
                                   const RenderSceneChanges& changes) {
   const SceneTexels::Update update = ground_.take(

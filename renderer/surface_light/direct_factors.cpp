@@ -27,8 +27,9 @@ constexpr size_t kCornersASum = 1024;
 // Elements that are tested together for what stands before them.
 constexpr size_t kLeavesAGroup = 32;
 
-// Of so many elements one shows the light of all until that of each is found: of more where they
-// are many for the rays of a call. An element of a new light takes about kRaysALeader.
+// Number of elements that share the light of one of them until the light of each is computed: more
+// if there are many elements for the rays of a call. An element of a new light takes about
+// kRaysALeader.
 constexpr uint32_t kLeastSpread = 8, kMostSpread = 32;
 constexpr uint64_t kRaysALeader = 6;
 

@@ -13,7 +13,7 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kGatherSet = 0x6a;
-// A sample is buried if more than one in so many of its rays see that.
+// A sample is buried if more than one in this number of its rays hit such a back face.
 constexpr std::ptrdiff_t kBuriedShare = 8;
 
 // The bits of x and y in turn.

@@ -11,8 +11,8 @@ namespace {
 
 // Passes of averaging with all links, and for each stage of links that is missing.
 constexpr int kPasses = 2, kPassesMore = 2;
-// Neighbours count in full if what they see is this many times as far away as they are from each
-// other, and not at all from kNear times on.
+// Neighbours have full weight if what they see is at least kFar times as far away as they are from
+// each other, and no weight at kNear times or less.
 constexpr float kFar = 4.0f, kNear = 1.0f;
 // How far light is carried to buried samples [elements].
 constexpr int kMostFills = 16;

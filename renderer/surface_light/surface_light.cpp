@@ -14,8 +14,8 @@ namespace {
 constexpr int kLiveShare = 4;
 constexpr size_t kManyLinks = size_t{1} << 22;
 
-// Where memory is short, samples have so many rays, and elements are larger only beyond that: in
-// levels of many samples the mean of neighbours is as smooth.
+// If memory is limited, samples have at least this number of rays, and only then elements become
+// larger: in levels with many samples the mean of neighbours is as smooth.
 constexpr int kFewRays = 32;
 
 // The mesh shows the light in full where what a sample sees is, in the mean, as many edges of

@@ -18,7 +18,7 @@ constexpr float kSmallShare = 0.125f;
 constexpr float kMostEdges = 128.0f;
 // Samples are moved from the corners of an element towards its middle by this share, so that their
 // rays do not start inside a wall that stands there, and so that the light very near a wall, which
-// changes fast, does not stand for the whole element.
+// changes fast, is not used for the whole element.
 constexpr float kInwards = 0.1f;
 
 class TreeBuilder {

@@ -158,9 +158,9 @@ class VisibilityDatabase {
   // neither, so that large levels need little memory.
   struct Row {
     std::vector<uint8_t> states;  // Occlusion; empty: the patch shares the entries of its parent
-    // The entries without the objects that moved last; values from kNoneAndMet on mean none, plus
-    // where the movers were met (MoverShadows::Hint); kUnknown: not tested yet. Empty: nothing was
-    // tested, nothing moved, or the memory limit does not allow it. While the same objects keep
+    // The entries without the objects that moved last; values of at least kNoneAndMet mean none,
+    // plus where the movers were hit (MoverShadows::Hint); kUnknown: not tested yet. Empty: nothing
+    // was tested, nothing moved, or the memory limit does not allow it. While the same objects keep
     // moving, as in a drag, only they are tested again (table 4-1).
     std::vector<uint8_t> withoutMovers;
     // For entries that are none without the movers: the mark up to which the result with the movers

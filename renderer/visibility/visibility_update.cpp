@@ -93,7 +93,7 @@ void VisibilityDatabase::Update::beginParts(uint32_t object, int patch, std::spa
   }
 }
 
-// From now on the parts share the entries of the patch.
+// After this the parts share the entries of the patch.
 void VisibilityDatabase::Update::forgetParts(uint32_t object, int patch) {
   if (!db_.isDivided(object, patch)) return;
   const auto index = static_cast<size_t>(patch);

@@ -5,7 +5,7 @@
 
 SHARED_BEGIN
 
-// Texture coordinates: u = dot(u.xyz, (uv, 1)), v likewise (KHR_texture_transform).
+// Texture coordinates: u = dot(u.xyz, (uv, 1)), v = dot(v.xyz, (uv, 1)) (KHR_texture_transform).
 struct TextureLookup {
   vec4 u;  // w: 1 for the second set of texture coordinates
   vec4 v;  // w: 1 if there is a texture

@@ -79,7 +79,8 @@ Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests);
 // Explains the brightness of the clicked point: a window in the upper right corner of `view`, while
 // there is such a point. Returns the covered rectangle.
 Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests);
-// A part of it: the surfaces that reflect light to the point, so many without scrolling.
+// A part of that panel: the surfaces that reflect light to the point; up to `mostRows` rows without
+// scrolling.
 void senderRows(const PanelContext& ui, float mostRows, Requests& requests);
 
 // The steps of the history; a click on a step goes there. A window in the lower left corner of

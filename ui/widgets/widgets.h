@@ -42,7 +42,7 @@ std::string endOf(const std::string& text, float room);
 // One line of text in a colour of the theme, at the cursor or at the right edge.
 void colouredText(const std::string& text, unsigned colour);
 void rightAligned(const std::string& text, unsigned colour);
-// Height of so many rows of a table with one line of text each.
+// Height of `rows` rows of a table with one line of text each.
 float heightOfRows(const PanelContext& ui, float rows);
 // Begins a panel over the view, at the next window's position and size.
 void beginOverlay(const PanelContext& ui, const char* id);

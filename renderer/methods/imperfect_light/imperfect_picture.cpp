@@ -113,14 +113,15 @@ LightChoiceOptions ImperfectPicture::choiceOptions() const {
   return choice;
 }
 
-// No sample lights any place more than all together light the view in the mean.
+// Limits the irradiance that a sample gives to any point to the mean irradiance of the view by all
+// samples.
 std::vector<MapLight> ImperfectPicture::bounded(std::span<const SceneVpl> lights) const {
   const double mean = std::accumulate(importance_.begin(), importance_.end(), 0.0);
   return boundedLights(lights, parameters_.clampDistance,
                        parameters_.asPublished ? 0.0f : static_cast<float>(mean));
 }
 
-// The samples of the exact sum: chosen anew, with what stands between.
+// The samples of the exact sum: chosen again, with occlusion.
 void ImperfectPicture::chooseForRest() {
   const ChosenLights chosen =
       parameters_.raysChoose ? chooseLights(map_, visible_.importance(), choiceOptions()) : chosen_;

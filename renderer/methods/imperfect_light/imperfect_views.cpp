@@ -107,7 +107,7 @@ std::vector<std::vector<uint32_t>> groupsByTriangle(const RenderScene& scene,
   return out;
 }
 
-// The size of the disc that a point stands for, on each surface.
+// The size of the disc that a point represents, on each surface.
 ViewPicture densityView(const ImperfectPicture& in) {
   ViewPicture out;
   out.image = emptyPicture(in.view());

@@ -16,8 +16,8 @@ constexpr std::array kShares{1.0f, 0.75f, 0.5f, 0.375f, 0.25f, 0.1875f, 0.125f, 
 // The part of a frame's refreshes that they may take; bounced light and other lights get the rest.
 constexpr float kBudgetShare = 0.75f;
 
-// A budget that varies between frames must not exchange the samples: their number grows only when
-// there is room for so many times as many.
+// A budget that varies between frames must not exchange the samples: their number grows only if the
+// budget allows this many times as many.
 constexpr float kGrowth = 2.0f;
 
 // How many moved VPLs fit into that part of the budget.

@@ -1,7 +1,7 @@
-// A settled picture as the sum of what each light gives, so that a change of brightness only weighs
-// the sum anew (the light mix of V-Ray and Corona). Each share is the light that surfaces reflect
-// of one control of brightness (light_controls.h) at its reference brightness, directly and after
-// bounces, antialiased and with the light of corners.
+// A settled picture as the sum of contributions of single lights, so that a change of brightness
+// only changes the weights of the sum (the light mix of V-Ray and Corona). Each share is the light
+// that surfaces reflect of one control of brightness (light_controls.h) at its reference
+// brightness, directly and after bounces, antialiased and with the light of corners.
 #pragma once
 
 #include <memory>
@@ -89,7 +89,7 @@ class LightShares {
   int picture_ = 0, pictures_ = 1;                // the jittered picture in progress
   size_t next_ = 0;                               // the share in progress
   bool hasEmission_ = false;                      // of the picture in progress
-  int lampRows_ = 0;                              // likewise, with near lamps
+  int lampRows_ = 0;                              // rows with near lamps of the picture in progress
   Image nearLamps_;                               // what these change, with the gains of begin()
   std::vector<LightControls::Control> controls_;  // when it began
   std::vector<Share> shares_;

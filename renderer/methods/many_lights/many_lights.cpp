@@ -76,7 +76,8 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
     visibilityNeeds_ = 0;
   if (visibilityNeeds_ > options.visibilityBytes()) options.forgoVisibility();
 
-  // 1. If only the brightness of lights changed, weigh the shares of a settled picture anew.
+  // 1. If only the brightness of lights changed, show the shares of a settled picture with new
+  // weights.
   takeScene(in, options);
   unsampled_.merge(in.changes);
   if (!in.changes.none()) gbufferIsCurrent_ = false;

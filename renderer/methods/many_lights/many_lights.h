@@ -109,7 +109,7 @@ class ManyLights final : public GiMethod {
   bool choiceIsCurrent_ = true;    // chosenFor_ is the present view, not an earlier one
   LightPaths paths_;
   PointVisibility pointVisibility_;    // from the view for which VPLs are chosen
-  LampImportance lampImportance_;      // likewise
+  LampImportance lampImportance_;      // from the same view
   std::vector<LampShare> lampShares_;  // by which direct samples are shared; empty: by flux
   std::vector<VplId> lampIds_;         // their emitters
   bool lampsAreCurrent_ = true;        // lampShares_ are those of a fresh start

@@ -14,7 +14,7 @@ constexpr int kRefinementShare = 4;
 // The cpu backend stores texel indices as floats.
 constexpr int kLargestMap = 1024;
 
-// Candidates in all, so that paths fit into memory; but at least so many for each sample.
+// Maximum number of candidates, so that paths fit into memory; and minimum number per sample.
 constexpr int kMostCandidates = 1 << 16, kCheapCandidates = 8;
 
 size_t bytesOfMap(int resolution) {

@@ -17,20 +17,21 @@ struct ManyLightsOptions : ManyLightsParameters {
                     const RenderScene& scene);
   ManyLightsOptions() = default;
 
-  // What carries bounced light, and why, where that is left to the scene; otherwise empty.
+  // The chosen carrier of bounced light and the reason, if the choice is automatic; otherwise
+  // empty.
   std::string carrierReason;
-  // Another carrier has the direct light of surfaces.
+  // The direct light of emissive surfaces is computed elsewhere.
   bool withoutSurfaces = false;
-  // Bounces of light that is kept on surfaces; 0: none is. `bounces` are those of light samples.
+  // Bounces of light that is stored on surface elements; 0: none. `bounces` is for light samples.
   int meshBounces = 0;
-  // Likewise of light along links of texels.
+  // Bounces of light along links of texels; 0: none.
   int linkBounces = 0;
   bool useLinks() const { return linkBounces > 0; }
-  // Likewise of light in a field.
+  // Bounces of light in a light field; 0: none.
   int fieldBounces = 0;
-  // It shows the sky, too, without its suns.
+  // The field also carries the light of the sky without suns.
   bool useField() const { return indirect == ManyLightsIndirect::field; }
-  // Likewise of light by samples with imperfect shadow maps.
+  // Bounces of light by samples with imperfect shadow maps; 0: none.
   int imperfectBounces = 0;
   bool useImperfect() const { return imperfectBounces > 0; }
   ImperfectParameters imperfect() const;

@@ -35,8 +35,8 @@ class Refinement {
   // Discards the mean, because the settled picture changed.
   void restart();
 
-  // Adds at most `most` VPLs, with maps of this size in the slots from firstSlot on. `live`, the
-  // settled picture, has the weight of its VPLs. Returns the number of VPLs added.
+  // Adds at most `most` VPLs, with maps of this size in consecutive slots from firstSlot. `live`,
+  // the settled picture, has the weight of its VPLs. Returns the number of VPLs added.
   int goOn(const FrameInputs& in, ManyLightsKernels& kernels, const Options& options,
            RadianceImage& live, int liveVpls, int firstSlot, MapSize size, int most);
 

@@ -56,8 +56,9 @@ bool ManyLights::isAtRest() const {
          lampsAreCurrent_;
 }
 
-// Shows the shares of a settled picture with the present brightness of lights, and does nothing
-// else. If light samples must be shared out anew, the next frames do it while they show the mix.
+// Shows the shares of a settled picture with the current brightness of lights, and does nothing
+// else. If light samples must be distributed to the lights again, the next frames do it while they
+// show the mix.
 bool ManyLights::mixOnly(const FrameInputs& in, const Options& options, GiOutput& out,
                          ManyLightsStats& stats) {
   if (!shares_.isDone() || !isSamePicture(in, options)) return false;

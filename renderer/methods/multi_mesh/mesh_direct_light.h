@@ -20,7 +20,7 @@ class MeshDirectLight {
                                        const DirectMeshOptions& options,
                                        const SurfacePictureOptions& surfaces, size_t samples,
                                        bool& gbufferIsCurrent);
-  // Whether a picture that is the mean of so many is complete.
+  // Whether a mean of `antialias` shifted pictures is complete.
   bool isDone(int antialias) const {
     return isComplete_ && (antialias <= 1 || averaged_ == antialias);
   }

@@ -23,7 +23,7 @@ class LightSamples {
   // camera, which does not compete with light sampling.
   vec3 emissionSeen(const Hit& hit, const Surface& surface, const vec3& direction, const vec3& from,
                     float pdfDirection) const;
-  // The sky's radiance for a ray that hits nothing, likewise.
+  // The radiance of the sky for a ray that hits nothing, with the MIS weight against direct().
   vec3 skySeen(const vec3& direction, float pdfDirection) const;
 
   // Light of an emissive surface, times f · cos, by the sample u of it. The unit vector towards the

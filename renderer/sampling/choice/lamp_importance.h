@@ -42,8 +42,8 @@ class LampImportance {
   std::array<PointVisibility, kTests> visibility_;  // by the points; the first for importance
 };
 
-// Whether samples may stay as they are shared out while an edit goes on: no lamp is left out that
-// was not, or the other way round, and none is more than four times as important or a quarter.
+// Whether the distribution of samples to lamps may be kept during an edit: the same lamps are left
+// out, and the importance of no lamp changed by more than a factor of four.
 bool isNear(std::span<const LampShare> a, std::span<const LampShare> b);
 
 }  // namespace lamplighter

@@ -1,10 +1,10 @@
-// A glTF file as read: its JSON, what tinygltf decoded of it, its bytes and what is said about it.
+// A glTF file as read: its JSON, the data that tinygltf decoded, its bytes, and messages about it.
 // Shared by the gltf_*.cpp files only; other code sees gltf_io.h.
 //
 // The JSON is parsed and checked here (checkStructure), because tinygltf 2.7 accepts cycles,
-// indices out of range and counts of four billion; what is checked is decoded by tinygltf
-// (decodeModel). Extensions and extras are read from the JSON, and saving patches it, so that what
-// is not understood stays as it was.
+// indices out of range and counts of four billion; checked parts are decoded by tinygltf
+// (decodeModel). Extensions and extras are read from the JSON, and saving patches it, so that
+// unknown members do not change.
 #pragma once
 
 #include <algorithm>
@@ -136,7 +136,7 @@ GltfDocument readGltfJson(const std::filesystem::path& path);
 // gltf_uri.cpp: the bytes behind a URI: data, or a file in the folder of the document. Null and
 // `why` set when there are none to be had.
 NewBytes readUri(const GltfDocument& document, const std::string& uri, std::string& why);
-// %20 and the like; what is no escape stays as it is.
+// Decodes escapes such as %20; other text does not change.
 std::string percentDecoded(std::string_view text);
 // Reads a whole regular file. Null and `why` set when it cannot be read.
 NewBytes readWholeFile(const std::filesystem::path& path, std::string& why);

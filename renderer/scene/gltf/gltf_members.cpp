@@ -161,7 +161,7 @@ class EntryCheck {
   void check(const Json& entry, const Member& member) const { walk(entry, member.path, member); }
 
  private:
-  // `path` from `object` on.
+  // Follows `path`, starting at `object`.
   void walk(const Json& object, std::string_view path, const Member& m) const {
     const size_t end = std::min(path.find_first_of(".[{"), path.size());
     const std::string_view key = path.substr(0, end);

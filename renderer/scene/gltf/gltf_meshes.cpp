@@ -58,7 +58,7 @@ std::vector<bool> checkNormals(std::vector<vec3>& normals) {
     const float square = glm::dot(normals[i], normals[i]);
     if (!(square > 1e-12f) || !std::isfinite(square)) {
       missing[i] = true;
-    } else if (std::abs(square - 1.0f) > 1e-5f) {  // not those that are unit: they stay as they are
+    } else if (std::abs(square - 1.0f) > 1e-5f) {  // unit normals do not change
       normals[i] /= std::sqrt(square);
     }
   }

@@ -88,7 +88,8 @@ Transform readTransform(const GltfDocument& document, size_t node) {
     if (!(square > 1e-12f) || !std::isfinite(square)) {
       document.fail(at, "has a rotation that is not a quaternion");
     }
-    // Those that are unit but for rounding stay as they are, so that saving gives them back.
+    // Quaternions of unit length within rounding do not change, so that saving writes the same
+    // values.
     t.rotation = std::abs(square - 1.0f) > 1e-5f ? glm::normalize(q) : q;
   }
   return t;

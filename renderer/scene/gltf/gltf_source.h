@@ -12,8 +12,7 @@ namespace lamplighter {
 class SceneSource {
  public:
   GltfDocument document;
-  // The scene as loaded. Parts that are still equal when saving are written as they were in the
-  // file.
+  // The scene as loaded. Parts that are still equal when saving are written unchanged.
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Texture> textures;
   std::vector<Node> nodes;

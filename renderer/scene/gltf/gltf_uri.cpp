@@ -1,5 +1,5 @@
-// What URIs in a glTF file stand for: data in the URI itself, or files in the document's folder.
-// Nothing else is read: no other folder, no network.
+// Resolves URIs in a glTF file: data in the URI itself, or files in the document's folder. Nothing
+// else is read: no other folder, no network.
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -180,7 +180,7 @@ class StructureCheck {
     }
   }
 
-  // `count` elements of `size` bytes, `stride` apart, from `object`'s byteOffset on in its view.
+  // `count` elements of `size` bytes, `stride` apart, from the byteOffset of `object` in its view.
   void inView(const Json& object, At at, size_t count, size_t size, bool strided) {
     const size_t index = sizeIn(object, "bufferView");
     const size_t offset = sizeIn(object, "byteOffset");

@@ -120,7 +120,7 @@ void DirectMeshes::show(const View& view, const GBufferView& gbuffer,
   }
 }
 
-// One descent: the light that is missing of a mesh, as far as it is known what is missing.
+// One descent: computes the missing light of a mesh, as far as it is known which light is missing.
 void DirectMeshes::findLight(Mesh& mesh, uint32_t number, size_t most) {
   mesh.values.resize(tree_.vertices());
   const MeshCut cut(tree_, mesh.values, visible_, roots_, view_, options_.cut);

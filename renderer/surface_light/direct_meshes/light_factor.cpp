@@ -11,12 +11,12 @@ namespace {
 
 // Blockers that are drawn into a mask; with more, rays are faster.
 constexpr size_t kMostDrawn = 64;
-// Places on a light: so many get rays, and where these differ, all.
+// Points on a light: rays go to this number of them first, and to all if the results differ.
 constexpr uint32_t kFirstRays = 64, kPoints = 256;
 constexpr size_t kFewPoints = 16;  // for light without shadows
 constexpr uint32_t kPointSet = 0x2f;
 
-// The light of a place that stands for all of the light, if nothing is between: the form factor of
+// The irradiance by a point that represents the whole light, without occlusion: the form factor of
 // a disk, so that it stays finite near the light.
 vec3 lightOf(const EmitterPoint& p, const vec3& position, const vec3& normal) {
   const vec3 d = p.position - position;

@@ -11,8 +11,8 @@ namespace {
 // Differences are compared with the light at the place plus this share of the mean of the picture,
 // so that deep shadows are not divided for nothing.
 constexpr float kDark = 0.1f;
-// Ends that differ by so many times the contrast are in the border of a shadow, where the middle
-// may have their mean by chance.
+// Edges whose ends differ by this multiple of the contrast lie in a shadow border, where the middle
+// may equal the mean by chance.
 constexpr float kSteep = 10.0f;
 // Visible triangles of one task.
 constexpr size_t kTrianglesATask = 64;

@@ -15,7 +15,7 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kLobeSet = 0x10be;
-// Lobes are traced up to the first roughness, and not at all from the second on.
+// Lobes are fully traced up to the first roughness, and not traced above the second.
 constexpr float kTraced = 0.45f, kEven = 0.65f;
 // Pixels whose lobes differ by more show different reflections: normals within 13°.
 constexpr float kLobeTurn = 40.0f;

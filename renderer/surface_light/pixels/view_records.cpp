@@ -22,14 +22,14 @@ constexpr size_t kMostRecords = 65536;
 constexpr float kReachShare = 0.35f;
 // How fast weights fall as normals turn: to 0 at 22°.
 constexpr float kTurn = 14.0f;
-// A distance from the plane of the spot counts as so many along it.
+// Factor by which a distance from the plane of the spot counts more than one along it.
 constexpr float kOffPlane = 4.0f;
 // Pixels with less weight than this get records of their own.
 constexpr float kCovered = 0.3f;
 constexpr float kLeastWeight = 1e-4f;
 constexpr int kSmoothPasses = 4;
-// Light is averaged over records within so many radii, at least beside each other: corners have
-// records of small radii, and 64 rays see little of a small bright spot.
+// Light is averaged over records within this many radii, and at least over neighbours: records in
+// corners have small radii, and few of 64 rays hit a small bright spot.
 constexpr float kSmoothRadius = 1.5f;
 
 // Where it could be used if it were a record of the finest level [pixels].

@@ -59,8 +59,8 @@ class Occluders {
   }
   // Whether one polygon of another object hides the whole patch of the pyramid.
   bool hiddenWithout(const OcclusionPyramid& pyramid, std::span<const uint32_t> objects) const;
-  // Whether one polygon stands between the eye (the light of the pyramid) and the whole patch, and
-  // is drawn in front of it: its front side faces the eye if its back is not drawn.
+  // Whether one polygon lies between the eye (the light of the pyramid) and the whole patch, and is
+  // drawn in front of it: its front side faces the eye if its back is not drawn.
   bool hiddenFromEye(const RenderScene& scene, const OcclusionPyramid& pyramid,
                      const vec3& eye) const;
   // Whether a polygon of the object is large enough to hide patches.

@@ -139,7 +139,7 @@ class Bar {
     const bool changed = ImGui::ColorEdit3(
         "##colour", &shown.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_PickerHueWheel);
     ui_.name("colour");
-    tooltip(ui_, "Colour of all selected lights; they stay as bright as they are.");
+    tooltip(ui_, "Colour of all selected lights; their brightness does not change.");
     trackEdit(ui_, "Change colour of lights");
     if (changed && luminance(srgbToLinear(shown)) > 0.0f)
       colourLights(ui_.session.editing(), srgbToLinear(shown));

@@ -78,7 +78,7 @@ struct IrradianceAccumulator::Frame {
   std::span<const uint32_t> wanted;  // by tile; empty: all
   std::span<const uint32_t> leftOutBy;
   std::vector<const LightRecord*> all;  // the lights
-  // lights and maps that are subtracted as they were, and added as they are
+  // lights and maps: old states that are subtracted, and new states that are added
   std::vector<const LightRecord*> taken, added;
   std::vector<bool> isChanged;               // by slot
   std::vector<PlaceTable::Staying> staying;  // lights that did not move
@@ -107,7 +107,7 @@ void IrradianceAccumulator::mapChanged(int slot, const ShadowMapDiff& change) {
   if (old != oldMaps_.end() && old->second.isChangedOnce) old->second.change = change;
 }
 
-// Whether subtracting and adding so many lights costs more than summing all lights.
+// Whether subtracting and adding `changed` lights costs more than summing all lights.
 bool IrradianceAccumulator::isMost(size_t changed, size_t all) const {
   return masksAreCached_ ? 4 * changed > 3 * all : 2 * changed > all;
 }

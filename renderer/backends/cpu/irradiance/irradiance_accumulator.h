@@ -1,6 +1,6 @@
-// The irradiance of all lights over a G-buffer, kept from frame to frame. A changed light is
-// subtracted as it was and added as it is; only tiles that show something else are summed from
-// scratch. Sums are integers (light_kernel.h), so the result does not depend on the history.
+// The irradiance of all lights over a G-buffer, kept from frame to frame. For a changed light the
+// old state is subtracted and the new one is added; only tiles that show other surfaces are summed
+// from scratch. Sums are integers (light_kernel.h), so the result does not depend on the history.
 #pragma once
 
 #include <map>

@@ -21,7 +21,7 @@ constexpr size_t kTilesATask = 8;
 // Most memory of copies of maps that changed since the last sum [bytes].
 constexpr size_t kMostOldMapBytes = size_t{16} << 20;
 
-// Whether subtracting and adding so many lights takes longer than summing all.
+// Whether subtracting and adding `changed` lights takes longer than summing all.
 bool isMost(size_t changed, size_t all) { return 2 * changed > all; }
 
 // Assumes that a texture can have any value.
@@ -93,7 +93,7 @@ SpecularAccumulator::Changes SpecularAccumulator::findChanges(
   const auto before = bySlot(lights_);
   out.bySlot = bySlot(lights);
   const auto& now = out.bySlot;
-  // Without a slot, lights cannot be told apart.
+  // Without slots, lights cannot be identified.
   if (before.size() != lights_.size() || now.size() != lights.size()) return out;
   const auto stays = [&](const SpecularLight& light, const auto& others) {
     const auto other = others.find(light.record.slot);
@@ -119,8 +119,8 @@ SpecularAccumulator::Changes SpecularAccumulator::findChanges(
   return out;
 }
 
-// Gives the parts of these tiles their rows. Rows of patches that are not seen any more stay until
-// all tiles are found anew.
+// Gives the parts of these tiles their rows. Rows of patches that are no longer visible are kept
+// until all tiles are updated.
 void SpecularAccumulator::findRows(std::span<const size_t> tiles) {
   if (tiles.size() == tiles_.size()) {
     rowOf_.clear();

@@ -1,6 +1,6 @@
 // The reflection of all lights by glossy surfaces towards the eye, over a G-buffer. The sums are
-// kept: lights that changed are subtracted as they were and added as they are. Sums are exact, so
-// they have the bits of sums over all lights.
+// kept between frames: for a changed light the old state is subtracted and the new one is added.
+// Sums are exact, so they are bitwise equal to sums over all lights.
 #pragma once
 
 #include <map>
@@ -28,7 +28,7 @@ class SpecularAccumulator {
 
   // Call when the map of a slot is about to change; `map` is its present content.
   void mapChanges(int slot, std::span<const float> map);
-  // Call when all maps are lost, or when maps change and their light is summed anew anyway.
+  // Call when all maps are lost, or when maps change and their light is summed from scratch anyway.
   void forgetMaps() {
     isKnown_ = false;
     oldMaps_.clear();

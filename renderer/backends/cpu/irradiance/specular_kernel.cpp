@@ -27,7 +27,7 @@ struct ExactSum {
 
   template <Sign kSign>
   HWY_INLINE void add(Floats value) {
-    // From 2⁻⁷ on, floats are such multiples.
+    // Floats of at least 2⁻⁷ are such multiples.
     const Floats small = wide(0x1p-7f);
     const Floats bounded = hn::Min(value, wide(0x1p20f));
     const Floats rounded = hn::Sub(hn::Add(bounded, small), small);

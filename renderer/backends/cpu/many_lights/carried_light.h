@@ -1,6 +1,6 @@
-// Irradiance that pixels take over from the picture before while the camera moves, because diffuse
-// light does not depend on the view. It is that of the nearest pixel, so the caller sums pixels
-// anew in turns: otherwise small displacements would add up.
+// Irradiance that pixels reuse from the previous picture while the camera moves, because diffuse
+// light does not depend on the view. It is that of the nearest old pixel, so the caller must sum
+// each pixel again from time to time: otherwise small displacements would add up.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class CarriedLight {
   void find(const GBuffer& gbuffer, const SeenPoints& before, std::span<const uint32_t> packets);
   void forget() { *this = CarriedLight(); }
 
-  // Whether light was found for a picture of so many tiles.
+  // Whether there is light for a picture of `tiles` tiles.
   bool isOf(int tiles) const { return whole_.size() == static_cast<size_t>(tiles); }
   // The packets of a tile of which all pixels were found, one bit each. Misses count as found.
   uint32_t whole(size_t tile) const { return whole_[tile]; }

@@ -40,10 +40,11 @@ struct PictureSums {
   SpecularAccumulator speculars;
   SpecularSamples sampledSpeculars;  // quick pictures: in place of `speculars`
 
-  // Sums the diffuse light in blocks of so many pixels. isQuick: some samples are interpolated.
-  // mostAtEdges: limits lights × pixels of the pixels that are not interpolated. `before`: what the
-  // picture of the last sum showed, if only the view changed since; pixels that are left to later
-  // calls take its light. Null: there is no such picture, or the view is the same.
+  // Sums the diffuse light in blocks of `pixelsPerBlock` pixels. isQuick: some samples are
+  // interpolated. mostAtEdges: limits lights × pixels of the pixels that are not interpolated.
+  // `before`: what the picture of the last sum showed, if only the view changed since; pixels that
+  // are left to later calls take its light. Null: there is no such picture, or the view is the
+  // same.
   SumCounts sum(const Input& in, int pixelsPerBlock, bool isQuick,
                 uint64_t mostAtEdges = UINT64_MAX, const SeenPoints* before = nullptr);
   // Whether the last sum left some of these pixels to later calls.

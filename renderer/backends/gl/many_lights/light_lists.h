@@ -37,7 +37,7 @@ class LightLists {
   // Number of places (shaders/shared/patches.h), including the empty place.
   static size_t places(size_t nodes) { return 1 + 2 * nodes; }
   // By group, then place. x: index of the first entry. y: the number of entries without a map
-  // look-up, and from bit 16 on the number of those with one, which follow.
+  // look-up (low 16 bits), and of those with one (high 16 bits), which follow.
   std::span<const glm::uvec2> ranges() const { return ranges_; }
   // Index in the group, with kTakeShadow and, after merging, the pass times kPassUnit.
   std::span<const uint32_t> entries() const { return entries_; }

@@ -85,7 +85,7 @@ std::shared_ptr<const LightPicture> readPicture(GltfDocument& document, const st
   return picture;
 }
 
-// Whether files that the scene now names are as they were; `same` compares two that are there.
+// Whether the files that the scene names now are unchanged; `same` compares two existing ones.
 template <typename T>
 bool isSameFile(const std::shared_ptr<const T>& now, const std::shared_ptr<const T>& was) {
   return now == was || (now && was && *now == *was);
