@@ -12,17 +12,17 @@ namespace lamplighter {
 
 class AtlasPicture {
  public:
-  // To be called with each frame.
+  // Call in each frame.
   void outdate(const FrameInputs& in);
-  // `picture` plus the bounced light. When it is final, the mean of `antialias` shifted pictures,
-  // one more in each frame. `gbufferIsCurrent`: whether the backend has the G-buffer of the view
-  // without a shift.
+  // Returns `picture` plus the bounced light. When the light is complete: the mean of `antialias`
+  // pictures with subpixel shifts, one more in each frame. `gbufferIsCurrent`: whether the backend
+  // has the G-buffer of the view without a shift; updated by the call.
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture,
                                        const TexelIrradiance& light, int antialias,
                                        const SurfacePictureOptions& options, uint32_t seed,
                                        bool& gbufferIsCurrent);
-  // Whether the last picture has all shifted ones.
+  // Whether the last picture is the mean of all shifted pictures.
   bool isDone(int antialias) const {
     return framesLeft(antialias) == 0 && (antialias <= 1 || shownOf_ == antialias);
   }
@@ -38,14 +38,14 @@ class AtlasPicture {
 
  private:
   struct Pixel {
-    vec3 position{0.0f};  // that the pixel shows, world space, and its triangle
+    vec3 position{0.0f};  // point that the pixel shows (world space), and its triangle
     uint32_t object = TexelSet::kNone, triangle = 0;
     TexelBlend blend;
-    vec3 reflectance{0.0f};  // share of even light, times π
+    vec3 reflectance{0.0f};  // reflected share of uniform light, times π
   };
   using Sample = std::vector<Pixel>;
-  // `before`: a sample of which pixels that show the same place of an object that did not move keep
-  // their texels; or empty. `withoutLobes`: PixelLobes adds what these reflect.
+  // `before`: a previous sample, or empty: pixels that show the same point of an object that did
+  // not move keep their texels. `withoutLobes`: leaves out the lobes, which PixelLobes adds.
   Sample sampleOf(const FrameInputs& in, const TexelIrradiance& light,
                   const SurfacePictureOptions& options, const Sample& before,
                   std::span<const uint32_t> movedObjects, bool withoutLobes) const;
@@ -56,11 +56,11 @@ class AtlasPicture {
   uint32_t version_ = 0, texelVersion_ = 0;  // of the light
   RenderSceneChanges unseen_;
   std::vector<Sample> samples_;    // the first without a shift
-  PixelLobes plainLobes_, lobes_;  // of the first; of the others
-  bool hasPlainLobes_ = false;     // else the first has even light in their place
+  PixelLobes plainLobes_, lobes_;  // lobes of the first sample; of the others
+  bool hasPlainLobes_ = false;     // otherwise the first sample uses uniform light instead of lobes
   std::shared_ptr<RadianceImage> under_, shown_;
   int shownOf_ = 0;    // samples
-  int antialias_ = 0;  // for which the samples are shifted
+  int antialias_ = 0;  // number of shifts for which samples_ were made
 };
 
 }  // namespace lamplighter

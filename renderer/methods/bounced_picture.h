@@ -12,19 +12,19 @@ namespace lamplighter {
 
 class BouncedPicture {
  public:
-  // To be called with the changes of each frame, also of those that do not show the light.
+  // Call with the changes of each frame, also in frames that do not show the light.
   void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
-  // Goes on with the light, by a limited number of rays. `pace`: share of that number, up to 1, in
-  // a frame in which anything changes.
+  // Continues the computation of the light by a limited number of rays. `pace`: share of that
+  // number, up to 1, in a frame in which anything changes.
   void update(const FrameInputs& in, const SurfaceLightOptions& light,
               const SurfacePictureOptions& picture, float pace = 1.0f);
-  // The share that the last update was limited to.
+  // The `pace` of the last update.
   float pace() const { return pace_; }
 
-  // `picture` plus bounced light, the mean of `antialias` shifted pictures (1: without a shift).
-  // Each frame adds some rows; until they are complete it is without a shift. `gbufferIsCurrent`:
-  // whether the backend has the G-buffer of the view without a shift; set to what it has
-  // afterwards.
+  // Returns `picture` plus bounced light: the mean of `antialias` pictures with subpixel shifts (1:
+  // no shift). Each frame adds some rows; until all are complete, the result has no shift.
+  // `gbufferIsCurrent`: whether the backend has the G-buffer of the view without a shift; updated
+  // by the call.
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture, int antialias,
                                        bool& gbufferIsCurrent);
@@ -35,15 +35,15 @@ class BouncedPicture {
            (antialias <= 1 ? still_.isComplete() : isSmooth(antialias));
   }
   // Estimate of the frames until isDone(), without further changes. It counts each sample as one
-  // frame, though those of a large picture take several: by this number RepairedMethod decides
-  // whether paths are traced first, and these take longer in a large picture, too.
+  // frame, though those of a large picture take several: RepairedMethod uses this number to decide
+  // whether paths are traced first, which also take longer in a large picture.
   int framesLeft(int antialias) const;
   // For debug views. Null without light. Valid until the next update.
   std::shared_ptr<const ElementView> elements() const;
-  // Inspection::links, of the light of elements. Null without bounced light. Valid until the next
+  // For Inspection::links: the light of elements. Null without bounced light. Valid until the next
   // update.
   InspectedLinks links() const;
-  // GiOutput::surfaces. Null without bounced light. It refers to this object and to `in`.
+  // For GiOutput::surfaces. Null without bounced light. Keeps references to this object and `in`.
   std::shared_ptr<const MirroredLight> surfaces(const FrameInputs& in) const;
   const SurfaceLight::Counts& counts() const { return light_.counts(); }
   size_t pictureBytes() const {
@@ -70,15 +70,15 @@ class BouncedPicture {
   SurfacePictureOptions options_;
   View view_;
   ViewRecords records_;
-  bool recordsAreOutdated_ = true;  // anything but the light of the mesh changed
+  bool recordsAreOutdated_ = true;  // anything except the light of the mesh changed
   bool isAtRest_ = false, hasOtherLight_ = false, keepsPixels_ = false;  // of this frame
   uint64_t raysLeft_ = 0;                                                // of this frame
   float pace_ = 1.0f;                                                    // of this frame
   uint32_t seed_ = 0;
   GatherProjection projection_ = GatherProjection::hemisphere;
-  SurfacePicture moving_;          // with even light in place of what glossy surfaces mirror
+  SurfacePicture moving_;          // with uniform light instead of glossy reflections
   RestingPicture still_, smooth_;  // without a shift; antialiased
-  // What was shown last.
+  // The picture that was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;
   int shownOf_ = 0;  // samples; 0: moving_
 };

@@ -1,5 +1,5 @@
-// Parameters that methods share, declared once. The struct of a method's parameters derives from
-// those that it uses, and its table contains their tables.
+// Parameters that several methods use. The parameter struct of a method derives from those that it
+// uses, and its table contains their tables.
 #pragma once
 
 #include <optional>
@@ -8,21 +8,21 @@
 
 namespace lamplighter {
 
-// Of methods that use random numbers.
+// For methods that use random numbers.
 struct SeedParameters {
   int seed = 1;
   bool operator==(const SeedParameters&) const = default;
 };
 const ParameterTable<SeedParameters>& seedParameters();
 
-// Of methods that trace light paths.
+// For methods that trace light paths.
 struct PathParameters : SeedParameters {
   int bounces = 2;  // indirect; 0: direct light only
   bool operator==(const PathParameters&) const = default;
 };
 const ParameterTable<PathParameters>& pathParameters();
 
-// How surfaces that the camera sees reflect light.
+// Reflection model of surfaces that the camera sees.
 struct SurfaceParameters {
   bool speculars = true;  // metallic-roughness BRDF
   float leastRoughness = 0.1f;
@@ -30,7 +30,7 @@ struct SurfaceParameters {
 };
 const ParameterTable<SurfaceParameters>& surfaceParameters();
 
-// Of methods that trace paths for each pixel until there are enough.
+// For methods that trace a given number of paths per pixel.
 struct SampleParameters {
   int samplesPerPixel = 64;
   int samplesPerFrame = 1;  // per pixel
@@ -38,7 +38,7 @@ struct SampleParameters {
 };
 const ParameterTable<SampleParameters>& sampleParameters();
 
-// Of methods that spread the work of an edit over frames. The editor sets `updates` from the
+// For methods that spread the work of an edit over frames. The editor sets `updates` from the
 // measured times of earlier frames.
 struct FrameBudgetParameters {
   int updates = 100;
@@ -48,8 +48,8 @@ struct FrameBudgetParameters {
 const ParameterTable<FrameBudgetParameters>& frameBudgetParameters();
 inline constexpr char kUpdates[] = "updates";  // the name of that parameter
 
-// The share of the usual work of a frame on light on surfaces: that of the window
-// (FrameBudget::surfaceWork) if it is given, else in proportion to the parameter `updates`.
+// Work on light on surfaces, as a share of the usual work of a frame: FrameBudget::surfaceWork if
+// the window sets it, otherwise in proportion to the parameter `updates`.
 inline float surfacePace(std::optional<float> ofWindow, int updates) {
   return ofWindow.value_or(static_cast<float>(updates) /
                            static_cast<float>(FrameBudgetParameters().updates));

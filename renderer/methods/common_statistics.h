@@ -1,4 +1,5 @@
-// Statistics and stages that methods share, and how a method returns its own statistics.
+// Statistics and stages that several methods use, and conversion of the statistics of a method for
+// GiOutput.
 #pragma once
 
 #include "renderer/methods/gi_method.h"
@@ -7,10 +8,10 @@ namespace lamplighter {
 
 const StatisticTable<GiStats>& commonStatistics();
 
-// The stage of methods that trace paths for each pixel.
+// The stage of methods that trace paths per pixel.
 inline constexpr StageSpec kPathsStage{"paths", "Paths", "Tracing paths for each pixel."};
 
-// The statistics of a frame as GiOutput has them.
+// Converts the statistics of a frame for GiOutput.
 template <std::derived_from<GiStats> Stats>
 GiStats published(const Stats& stats, const StatisticTable<Stats>& table) {
   GiStats out = stats;

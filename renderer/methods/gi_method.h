@@ -27,16 +27,16 @@ class MirroredLight;
 // method reads a clock. Measured times never influence the result.
 using Stopwatch = std::function<double()>;  // seconds since some fixed moment
 
-// How stages are timed on a device that works beside the processor. exact: each stage waits until
-// the device has finished it. late: nothing waits; a stage takes the longer of the processor's time
-// and the device's, which is of an earlier frame.
+// How stages are timed on a device that works in parallel with the processor. exact: each stage
+// waits until the device has finished. late: nothing waits; the time of a stage is the larger of
+// the times of the processor and of the device, where the latter is of an earlier frame.
 enum class StageTimes : uint8_t { late, exact };
 
 // The input of a method for one frame. The scene, the backend and the services are up to date when
 // render() is called.
 struct FrameInputs {
   const RenderScene& scene;
-  const RenderSceneChanges& changes;  // since the previous frame
+  const RenderSceneChanges& changes;  // changes since the previous frame
   const View& view;
   Backend& backend;
   Services& services;
@@ -48,35 +48,36 @@ struct FrameInputs {
   LightPart part = LightPart::all;  // the light in the picture; a picture of a part is not refined
 };
 
-// What every method says of a frame. A method derives a struct with statistics of its own and
-// declares them in a table (renderer/base/statistics.h).
+// Statistics of a frame that every method returns. A method derives a struct with more statistics
+// and declares them in a table (renderer/base/statistics.h).
 struct GiStats {
   int framesUntilSettled = 0;  // estimate at this frame's rate, without further changes
-  // Items that were brought up to date in this frame, at most the parameter `updates`; items that
-  // wait for it; items by which the settled picture was refined, at most refineUpdates.
+  // Items that were updated in this frame, at most the parameter `updates`; items that wait for an
+  // update; items by which the settled picture was refined, at most refineUpdates.
   int updates = 0, pending = 0, refineUpdates = 0;
   // Rows of paths traced to repair the picture before it has settled, at most
   // FrameBudget::previewUpdates.
   int previewUpdates = 0;
-  // The share of the usual work of a frame on light on surfaces that this frame was limited to; 0:
+  // Limit of this frame for work on light on surfaces, as a share of the usual work of a frame; 0:
   // it did none.
   float surfaceWork = 0.0f;
   int samplesPerPixel = 0;
   uint64_t raysTraced = 0;              // in this frame, by the method
   std::vector<StageTime> stageSeconds;  // as MethodInfo::stages; empty: not measured
   std::vector<Statistic> declared;      // in the order of MethodInfo::statistics
-  // What the method chose for parameters that leave it to the method, and why, by their name.
+  // By name of a parameter with an automatic value: the choice of the method and the reason.
   std::map<std::string, std::string> chosen;
 
   double secondsOf(const StageSpec& stage) const;  // 0 if it was not measured
 
-  // The value of a declared statistic. Throws std::out_of_range if the method has none of that
-  // name.
+  // The value of a declared statistic. Throws std::out_of_range if the method has no statistic of
+  // this name.
   double of(std::string_view name) const;
   std::optional<double> find(std::string_view name) const;
 };
 
-// lights: edges of the sky and of lamps. all: also those of surfaces in direct light.
+// Which edges are antialiased. lights: those of the sky and of lamps. all: also those of surfaces
+// in direct light.
 enum class SmoothEdges : uint8_t { none, lights, all };
 
 struct GiOutput {
@@ -84,11 +85,11 @@ struct GiOutput {
   bool includesDirect = true;
   bool settled = false;  // rendering the same input again would at most refine the picture
   bool refined = true;   // the picture is refined as far as requested, or refinement is off
-  // What is antialiased already, even if the picture has not settled. To smooth the same edges
-  // again would blur the outlines of bright lamps.
+  // Edges that are already antialiased, even if the picture has not settled. Antialiasing the same
+  // edges again would blur the outlines of bright lamps.
   SmoothEdges smoothEdges = SmoothEdges::none;
-  // If the picture has settled: the light that the method keeps on surfaces, if it does. Valid
-  // until the next call of the method.
+  // If the picture has settled: the light that the method stores on surfaces, or null. Valid until
+  // the next call of the method.
   std::shared_ptr<const MirroredLight> surfaces;
   GiStats stats;
   // Exception of a background task, reported once. The picture lacks its result.
@@ -119,7 +120,7 @@ struct ShownCapability {
   std::string when;
 };
 
-// Kernels that a method needs of the backend.
+// A kernel that a method needs from the backend.
 struct KernelNeed {
   std::string name;
   bool (*isMetBy)(const Backend&);
@@ -130,7 +131,7 @@ KernelNeed kernelNeed(std::string name) {
 }
 
 struct MethodNeeds {
-  std::vector<Service> services = {};  // all that it may ask for
+  std::vector<Service> services = {};  // all services that it may use
   std::vector<KernelNeed> kernels = {};
   bool openGl = false;  // it draws with OpenGL itself, so only on the gl backend
 };

@@ -1,5 +1,5 @@
-// What a method shows of its internal data, for debug views and tools: a set of capabilities. A
-// view asks for those that it needs and does not know the method.
+// Access to internal data of a method, for debug views and tools: a set of capabilities. A view
+// checks for those that it needs and is independent of the method.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ enum class Capability : uint8_t { lights, patches, texels, elements, transfer, p
 const char* nameOf(Capability capability);  // in the plural: "light samples"
 
 // Patches: pieces of surface for which the method knows which light samples reach them.
-// Neighbouring leaves with the same knowledge form one patch. All functions may be called in
+// Neighbouring leaves with equal visibility form one patch. All functions may be called in
 // parallel.
 class PatchView {
  public:
@@ -35,7 +35,7 @@ class PatchView {
   struct Shape {
     int level = 0;         // how often its root was divided
     bool isPlanar = true;  // a rectangle; otherwise a box around geometry that is not planar
-    vec2 size{0.0f};       // of the rectangle; of a box its diagonal [m]
+    vec2 size{0.0f};       // size of the rectangle; for a box, its diagonal [m]
   };
   virtual Shape shapeOf(uint32_t object, int patch) const = 0;
 
@@ -55,7 +55,7 @@ class TexelView {
  public:
   virtual ~TexelView() = default;
 
-  // A grid, and the place of a point in it. Texels are at the corners of the cells.
+  // A grid, and the position of a point in it. Texels are at the corners of the cells.
   struct Grid {
     vec2 size{0.0f};   // along the axes of the grid [m]
     vec2 cells{1.0f};  // along each axis
@@ -64,11 +64,11 @@ class TexelView {
   // None where the method stores no light.
   virtual std::optional<Grid> gridAt(uint32_t object, uint32_t triangle,
                                      const vec3& position) const = 0;
-  // Where gridAt() gives a grid: E on the front of the surface [W/m²].
+  // Irradiance E on the front of the surface [W/m²], at points for which gridAt() returns a grid.
   virtual vec3 irradianceAt(uint32_t object, uint32_t triangle, const vec3& position) const = 0;
 };
 
-// Elements of surface at whose corners light is kept. All functions may be called in parallel.
+// Surface elements at whose corners light is stored. All functions may be called in parallel.
 class ElementView {
  public:
   virtual ~ElementView() = default;
@@ -81,14 +81,14 @@ class ElementView {
     float trust = 1.0f;  // share of the light of a pixel that comes from the element while the
                          // camera is still
   };
-  // `weights`: of the second and third corner of the triangle. None where the method keeps no
-  // light.
+  // `weights`: barycentric weights of the second and third corner of the triangle. None where the
+  // method stores no light.
   virtual std::optional<Place> placeAt(uint32_t object, uint32_t triangle, bool isBack,
                                        const vec2& weights) const = 0;
 
   struct Corner {
-    vec3 irradiance{0.0f};  // of the light that is kept [W/m²]
-    float pending = 0.0f;   // share of its rays that are out of date or missing
+    vec3 irradiance{0.0f};  // stored irradiance [W/m²]
+    float pending = 0.0f;   // share of its rays that are outdated or missing
     bool isBuried = false;  // inside of an object or behind a wall
   };
   virtual std::array<Corner, 3> cornersOf(uint32_t element) const = 0;
@@ -103,7 +103,7 @@ struct InspectedPoint {
   bool isStale = false;               // it waits for an update
 };
 
-// A point of a surface whose links are asked for. Lengths are in the unit of the scene.
+// A point of a surface at which links are queried. Lengths are in the unit of the scene.
 struct InspectedPlace {
   uint32_t object = 0, triangle = 0;  // index into RenderScene::objects; triangle of the object
   bool isBack = false;                // of the triangle
@@ -113,15 +113,15 @@ struct InspectedPlace {
 
 // Bounced light that a point receives from a part of a surface.
 struct InspectedLink {
-  vec3 from{0.0f}, to{0.0f};  // the point; the middle of the sender [unit of the scene]
+  vec3 from{0.0f}, to{0.0f};  // the point; the centre of the sender [unit of the scene]
   uint32_t object = 0;        // of the sender: index into RenderScene::objects
-  vec3 irradiance{0.0f};      // that it brings to the point [W/m²]
+  vec3 irradiance{0.0f};      // contribution to the irradiance of the point [W/m²]
   float size = 0.0f;          // side of a square with the area of the sender [unit of the scene]
 };
 
-// Where the bounced light of a point comes from. The sum over all links is the irradiance of the
-// point by bounced light, as the method keeps it on the surface, within 1e-5 of it once the picture
-// is settled. Empty: the point gets none. None: the links are not found yet.
+// Where the bounced light of a point comes from. The sum over all links equals the stored
+// irradiance of the point by bounced light, within a relative error of 1e-5 once the picture is
+// settled. Empty: the point gets no bounced light. None: the links are not computed yet.
 using InspectedLinks =
     std::function<std::optional<std::vector<InspectedLink>>(const InspectedPlace& place)>;
 

@@ -8,14 +8,14 @@ namespace lamplighter {
 
 class LinkedPicture : public TexelPicture<TexelRadiosity> {
  public:
-  // Goes on. `pace`: share of the usual work of a frame.
+  // Continues the computation. `pace`: share of the usual work of a frame.
   void update(const FrameInputs& in, const TexelRadiosityOptions& options, float pace);
   int framesLeft(int antialias) const {
     return light_.isDone() ? picture_.framesLeft(antialias) : antialias + 1;
   }
-  // By name: views of texels (texel_views.h), after outdate(). They refer to this object.
+  // Views of texels (texel_views.h) by name, after outdate(). They keep references to this object.
   std::map<std::string, std::function<ViewPicture()>> views() const;
-  // Inspection::links. Null before update(). It refers to this object.
+  // For Inspection::links. Null before update(). Keeps a reference to this object.
   InspectedLinks links() const;
   void forget() { *this = LinkedPicture(); }
 

@@ -6,8 +6,8 @@
 
 namespace lamplighter {
 
-// By element, what the light of the mesh at a place is the sum of, without the light of the sky.
-// Records at pixels differ a little. Empty where no light is kept.
+// The contributions to the light of the mesh at a point, by element, without the light of the sky.
+// The light of records at pixels differs slightly. Empty where no light is stored.
 std::vector<InspectedLink> meshSendersTo(const RenderScene& scene, const SurfaceLight& light,
                                          const InspectedPlace& place);
 

@@ -1,12 +1,12 @@
-// Where the samples of antialiasing lie in a pixel.
+// Positions of the samples of antialiasing in a pixel.
 #pragma once
 
 #include "renderer/base/math.h"
 
 namespace lamplighter {
 
-// The offset [pixels] of sample i of n from the middle of a pixel: a Hammersley set, centred so
-// that its mean is the middle.
+// The offset [pixels] of sample i of n from the centre of a pixel: a Hammersley set whose mean is
+// the centre.
 inline vec2 pixelJitter(int i, int n) {
   float inverse = 0.0f, digit = 0.5f, size = 1.0f;
   for (int rest = i; rest > 0; rest /= 2, digit *= 0.5f) {

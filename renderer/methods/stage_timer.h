@@ -8,14 +8,14 @@
 
 namespace lamplighter {
 
-// Writes the times into the statistics of the frame, by the caller's stopwatch. Does nothing if
-// there is none. Holds references to its arguments.
+// Writes the times into the statistics of the frame, measured with the caller's stopwatch. Does
+// nothing without a stopwatch. Keeps references to its arguments.
 class StageTimer {
  public:
-  // The first stage begins now. `stages`: all of the method, as in MethodInfo.
+  // Starts the first stage. `stages`: all stages of the method, as in MethodInfo.
   StageTimer(const FrameInputs& in, std::span<const StageSpec> stages, GiStats& stats);
 
-  // Adds the time since the last call to this stage; the next stage begins. Throws
+  // Adds the time since the last call to this stage and starts the next stage. Throws
   // std::out_of_range if the method does not declare the stage.
   void end(const StageSpec& stage);
 
@@ -23,7 +23,7 @@ class StageTimer {
   const FrameInputs& in_;
   GiStats& stats_;
   double last_ = 0.0;               // [s]
-  std::vector<double> ownSeconds_;  // by stage: of the processor
+  std::vector<double> ownSeconds_;  // by stage: time of the processor
 };
 
 }  // namespace lamplighter

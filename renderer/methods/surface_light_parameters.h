@@ -1,4 +1,4 @@
-// Parameters of methods whose bounced light is kept on the surfaces (renderer/surface_light).
+// Parameters of methods whose bounced light is stored on the surfaces (renderer/surface_light).
 #pragma once
 
 #include "renderer/base/parameter_table.h"
@@ -11,7 +11,7 @@ struct SurfaceLightParameters {
   float coarseEdge = 0.25f;  // [m]
   int gatherRays = 256;
   int linkMemory = 64;  // MiB
-  int mask = 0;         // places along a side of a light
+  int mask = 0;         // side of the bit mask on a light
   GatherProjection projection = GatherProjection::hemisphere;
   bool operator==(const SurfaceLightParameters&) const = default;
 
@@ -33,7 +33,7 @@ struct SurfaceLightStats : GiStats {
   int masks = 0;                         // in this frame
   uint64_t surfaceBytes = 0;             // memory
 
-  // All but the rays.
+  // Takes all counts except the rays.
   void take(const SurfaceLight::Counts& counts);
 };
 const StatisticTable<SurfaceLightStats>& surfaceLightStatistics();

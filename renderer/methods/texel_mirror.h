@@ -1,4 +1,4 @@
-// What glossy surfaces mirror where texels of surface keep the light.
+// Reflected light in glossy surfaces for methods that store light at texels.
 #pragma once
 
 #include "renderer/surface_light/pixels/mirrored_light.h"
@@ -8,7 +8,7 @@ namespace lamplighter {
 
 class TexelMirror final : public MirroredLight {
  public:
-  // Refers to its arguments.
+  // Keeps references to its arguments.
   TexelMirror(const RenderScene& scene, const RayCaster& rays, const TexelIrradiance& light)
       : scene_(&scene), rays_(&rays), light_(&light) {}
   uint64_t placeOf(const Ray& ray, const Hit& hit) const override;

@@ -1,5 +1,4 @@
-// Light that texels of the surface keep, added to a picture: what LinkedPicture and FieldPicture
-// share.
+// Adds light that is stored at texels to a picture: common code of LinkedPicture and FieldPicture.
 #pragma once
 
 #include "renderer/methods/atlas_picture.h"
@@ -7,18 +6,18 @@
 
 namespace lamplighter {
 
-// `Light`: a TexelIrradiance that takes the changes of each frame by outdate().
+// `Light`: a TexelIrradiance with a function outdate() for the changes of each frame.
 template <typename Light>
 class TexelPicture {
  public:
-  // To be called with each frame, also with those that do not show the light.
+  // Call in each frame, also in frames that do not show the light.
   void outdate(const FrameInputs& in) {
     scene_ = &in.scene;
     rays_ = &in.services.rays();
     light_.outdate(in.changes);
     picture_.outdate(in);
   }
-  // `picture` plus the light; see AtlasPicture::addTo().
+  // Returns `picture` plus the light; see AtlasPicture::addTo().
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture, int antialias,
                                        const SurfacePictureOptions& options, uint32_t seed,
@@ -27,7 +26,7 @@ class TexelPicture {
   }
   bool isDone(int antialias) const { return light_.isDone() && picture_.isDone(antialias); }
   const Light& light() const { return light_; }
-  // GiOutput::surfaces. It refers to this object and to `in`.
+  // For GiOutput::surfaces. Keeps references to this object and `in`.
   std::shared_ptr<const MirroredLight> surfaces(const FrameInputs& in) const {
     if (light_.reflected().empty()) return nullptr;
     return std::make_shared<TexelMirror>(in.scene, in.services.rays(), light_);
@@ -36,7 +35,7 @@ class TexelPicture {
  protected:
   Light light_;
   AtlasPicture picture_;
-  // Of this frame.
+  // State of this frame.
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
 };

@@ -1,4 +1,4 @@
-// Debug views of texels of surface: those of methods whose bounced light goes along links.
+// Debug views of texels, for methods whose bounced light goes along links.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace lamplighter {
 
 const std::vector<MethodView>& texelViews();
 
-// The present scene and its texels.
+// The current scene and its texels.
 struct TexelViewSubject {
   const AtlasPicture& picture;
   const TexelRadiosity& light;

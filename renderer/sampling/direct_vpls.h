@@ -10,9 +10,9 @@ namespace lamplighter {
 
 // The wanted number of direct samples.
 int directSamples(const VplCounts& counts);
-// By its flux, with the minimum number of samples of an emitter. The sides of a double-sided one
-// alternate; a point light is two hemispheres; one with a profile has its lobes. A sun is one
-// sample, independent of its tiles. Nothing for those that the counts leave out.
+// The share of an emitter by its flux, with its minimum number of samples. The sides of a
+// double-sided one alternate; a point light is two hemispheres; one with a profile has its lobes. A
+// sun is one sample, independent of its tiles. Zero for emitters that the counts leave out.
 SampleShare directShareOf(const RenderScene& scene, const Emitter& e, const VplCounts& counts);
 
 class DirectVpls {

@@ -1,6 +1,6 @@
-// What one control of brightness drives: the surfaces of an object of one material, a punctual
-// light, or the sky. Objects that share a material can be switched one by one, so each has its own
-// control.
+// Brightness controls. One control sets the brightness of the surfaces of an object with one
+// material, a punctual light, or the sky. Objects that share a material can be switched one by one,
+// so each has its own control.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
-// From light samples at the reference brightness of their lights (reference_brightness.h) to those
-// of the scene.
+// Converts light samples at the reference brightness of their lights (reference_brightness.h) to
+// the brightness of the scene.
 #pragma once
 
 #include <map>

@@ -65,8 +65,8 @@ class LightPaths {
   // brightness of lights (light_gains.h). Suns are not divided into tiles.
   // `isForChoice`: without the tangents of indirect VPLs, which chooseForView() adds to those that
   // it keeps if there are candidates.
-  // `lamps`: what each emitter brings to the view, by which direct samples are shared; empty: by
-  // flux.
+  // `lamps`: contribution of each emitter to the view, by which direct samples are distributed;
+  // empty: by flux.
   VplSet set(const RenderScene& scene, bool isForChoice = false,
              std::span<const LampShare> lamps = {}) const;
 
@@ -79,7 +79,7 @@ class LightPaths {
   struct Path {
     LightPath path;
     Departure start;           // the distribution of its first step
-    bool isOwn = true;         // it also departs as its own sample numbers say
+    bool isOwn = true;         // it departs by its own sample numbers
     bool hasMoved = false;     // its light has moved since the path was last processed
     size_t touched = kNoStep;  // first step that a moved object may block or no longer block
     size_t broken = kNoStep;   // first step whose hit point has moved

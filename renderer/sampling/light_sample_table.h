@@ -1,5 +1,5 @@
 // The light samples of a frame: rows in a fixed order, and columns by the slots of their shadow
-// maps. All stages of the frame, and what the method shows of it (Inspection), read the same table.
+// maps. All stages of the frame, and Inspection, read the same table.
 #pragma once
 
 #include <span>
@@ -12,16 +12,16 @@ namespace lamplighter {
 // A light sample that is shown, or that waits to be shown. Its slot is vpl.slot.
 struct LightSample : SceneVpl {
   bool isLive = false;      // shown; otherwise `vpl` is its future state
-  bool isUpToDate = false;  // shown as it is wanted, and its map shows the present scene
+  bool isUpToDate = false;  // shown in its wanted state, and its map shows the current scene
   bool isStale = false;     // it waits for an update
-  int framesWaiting = 0;    // since it waits
+  int framesWaiting = 0;    // number of frames for which it has waited
 };
 
-// Those that are shown.
+// The samples that are shown.
 std::vector<SceneVpl> liveSamples(std::span<const LightSample> samples);
 
 struct LightSampleTable {
-  // In an order that does not depend on history: that of the wanted ones.
+  // All samples, in the order of the wanted ones, which does not depend on history.
   std::vector<LightSample> samples;
 
   // By slot: the lights to sum. While samples of a light are missing, the others carry its flux, so
@@ -29,7 +29,7 @@ struct LightSampleTable {
   std::vector<shared::Vpl> summed;
   std::vector<vec3> reference;    // by slot: its intensity at the reference brightness of its light
   std::vector<uint8_t> needsMap;  // by slot: the view reads its shadow map
-  std::vector<uint8_t> hasMap;    // by slot: it has a shadow map, of the light as it is shown
+  std::vector<uint8_t> hasMap;    // by slot: it has a shadow map of the light in its shown state
 
   size_t slots() const { return summed.size(); }
   // By slot, whether the predicate is true for the sample.
@@ -42,7 +42,7 @@ struct LightSampleTable {
   }
   std::vector<shared::Vpl> summedInOrder() const;
   // Sums the samples at the reference brightness of their lights (reference_brightness.h), times
-  // what `factor` gives for each sample.
+  // `factor` of each sample.
   template <typename Factor>
   void sumAtReference(const Factor& factor) {
     for (const LightSample& sample : samples) {

@@ -14,7 +14,7 @@ namespace lamplighter {
 // number of rays traced.
 //
 // The light's own body is assumed not to block `before`, which is exact for convex bodies. At most
-// 1000 candidates are tried; then the last one is taken.
+// 1000 candidates are tried; then the last one is used.
 int followStart(const PathWalker& walker, const PathWalker::Source& source, const Departure& before,
                 const Departure& now, uint32_t edit, LightPath& path);
 

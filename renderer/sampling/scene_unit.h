@@ -12,18 +12,18 @@ namespace lamplighter {
 // How far apart the surfaces of a level are: upper quartiles of the lengths of rays that leave
 // surfaces with cosine-distributed directions and hit something [m]; 0: too few hit anything.
 struct Spacing {
-  float ofTriangles = 0.0f;  // from points of random triangles: of what is modelled
-  float ofArea = 0.0f;       // from points distributed by area: of walls and ground
+  float ofTriangles = 0.0f;  // from points of random triangles: spacing of modelled objects
+  float ofArea = 0.0f;       // from points distributed by area: spacing of walls and ground
 };
 
 // The unit for a level [m]: a power of two, and 1 for levels of ordinary size.
 //   2¹⁰ᵏ where both spacings are 128 m or more (rooms in millimetres),
 //   2⁻⁷ or less where both are below 1/16 m (rooms in hundreds of metres, or in kilometres).
-// Both are asked, because ground and sky domes have a large area and few triangles, and statues
-// many triangles and a small area. If one is 0, the other counts; 1 if both are.
+// Both are needed, because ground and sky domes have a large area and few triangles, and statues
+// have many triangles and a small area. If one is 0, only the other is used; 1 m if both are 0.
 float unitFor(const Spacing& spacing);
 
-// Finds the spacing of a level that is edited.
+// Computes the spacing of a level that is edited.
 class SceneSpacing {
  public:
   // Call it after each update of the scene and the rays. Deterministic; it depends only on the

@@ -1,5 +1,5 @@
-// Points that the camera sees. Light samples are chosen and suns are divided by what they bring
-// there.
+// Points that the camera sees. Light samples are chosen, and suns divided, by their contribution at
+// these points.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ std::vector<SeenPoint> seenPoints(const RenderScene& scene, const RayCaster& ray
 
 // The view for which VPLs are chosen: eye and direction of the camera snapped to a grid (half a
 // metre, 15°), so that small camera motions change no VPL. If a surface is between the eye and the
-// grid point, the eye is not snapped. Depends only on the present camera and scene, not on earlier
+// grid point, the eye is not snapped. Depends only on the current camera and scene, not on earlier
 // ones.
 View steadyView(const View& view, const RayCaster& rays);
 

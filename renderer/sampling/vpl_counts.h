@@ -13,10 +13,11 @@ struct SampleShare {
   float order = 0.0f;    // if there are too few samples, shares with more of it are served first
 };
 
-// What an emitter brings to the view (choice/lamp_importance.h).
+// Contribution of an emitter to the view (choice/lamp_importance.h).
 struct LampShare {
-  float importance = 0.0f;  // √mean of its squared share of the light at points of the view, [0, 1]
-  float light = 0.0f;       // mean of its share of the light there, [0, 1]
+  float importance =
+      0.0f;            // root mean square of its share of the light at points of the view, [0, 1]
+  float light = 0.0f;  // mean of its share of the light there, [0, 1]
   bool isLeftOut = false;  // gets no samples
   bool operator==(const LampShare&) const = default;
 };

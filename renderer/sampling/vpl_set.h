@@ -16,7 +16,7 @@
 namespace lamplighter {
 
 // Identifies a sample of a light. After an edit the same id is the same point on the emitter, or
-// the same bounce of the same path. So the VPLs of a light that moves a little move a little.
+// the same bounce of the same path. So a small motion of a light causes a small motion of its VPLs.
 struct VplId {
   NodeId light = kNoNode;
   uint32_t emitter = 0;  // index among the emitters of one node
@@ -58,8 +58,8 @@ struct VplCounts {
   // Factor for the number of samples of indirect light and of the sky, of which view_importance.h
   // chooses some.
   int candidates = 1;
-  bool withoutSky = false;       // the sky gets none, but its suns do
-  bool withoutSurfaces = false;  // surfaces that emit get none
+  bool withoutSky = false;       // the sky gets no samples, but its suns do
+  bool withoutSurfaces = false;  // emissive surfaces get no samples
   int sunMaps = 128;  // shadow tiles per sun, in addition to the total (sun_shadow_tiles.h)
 
   bool operator==(const VplCounts&) const = default;

@@ -1,4 +1,4 @@
-// Accessibility of a surface point: the share of the light of an even sky that reaches it if only
+// Accessibility of a surface point: the share of the light of a uniform sky that reaches it if only
 // surfaces nearer than a radius block it (Zhukov, Iones and Kronin, "An Ambient Light Illumination
 // Model", 1998, where it is called obscurance):
 //

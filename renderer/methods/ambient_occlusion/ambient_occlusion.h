@@ -1,4 +1,4 @@
-// Ambient occlusion as a method: the level under an even sky that only near surfaces block.
+// Ambient occlusion as a method: the level under a uniform sky that only near surfaces block.
 #pragma once
 
 #include "renderer/methods/gi_method.h"

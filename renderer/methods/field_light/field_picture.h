@@ -8,16 +8,17 @@ namespace lamplighter {
 
 class FieldPicture : public TexelPicture<LightField> {
  public:
-  // Goes on. `pace`: share of the usual work of a frame.
+  // Continues the computation. `pace`: share of the usual work of a frame.
   void update(const FrameInputs& in, const LightFieldOptions& options, float pace);
   // Estimate of the frames until isDone(), without further changes.
   int framesLeft(int antialias) const;
-  // By name: views of the field (field_views.h), after outdate(). They refer to this object.
+  // Views of the field (field_views.h) by name, after outdate(). They keep references to this
+  // object.
   std::map<std::string, std::function<ViewPicture()>> views() const;
   void forget() { *this = FieldPicture(); }
 
  private:
-  uint64_t mostWork_ = 1;  // of the last frame
+  uint64_t mostWork_ = 1;  // work limit of the last frame
 };
 
 }  // namespace lamplighter

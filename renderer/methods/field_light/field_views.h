@@ -10,7 +10,7 @@ namespace lamplighter {
 
 const std::vector<MethodView>& fieldViews();
 
-// The present scene and its field.
+// The current scene and its field.
 struct FieldViewSubject {
   const AtlasPicture& picture;
   const LightField& light;

@@ -13,13 +13,13 @@
 
 namespace lamplighter {
 
-// By pixel of the present G-buffer, row by row: the share of even light that it sends to the eye,
-// over π.
+// By pixel of the current G-buffer, row by row: reflected share of uniform light towards the eye,
+// divided by π.
 std::vector<vec3> reflectancesOf(const FrameInputs& in, const SurfacePictureOptions& options);
 
 class ExactSum {
  public:
-  // What does not change until restart().
+  // Inputs that must not change until restart().
   struct Subject {
     const ImperfectParameters& parameters;
     SurfacePictureOptions pixels;
@@ -29,7 +29,7 @@ class ExactSum {
   };
 
   void restart();
-  // Objects moved, came or went, or let other rays through.
+  // Call when objects moved, were added or removed, or changed their transparency.
   void outdateMaps() { maps_.outdate(); }
   // The samples to be summed, and the same with their clamp distances. restart() keeps them.
   void setLights(std::vector<SceneVpl> samples, std::vector<MapLight> lights);

@@ -20,21 +20,21 @@ using EndStage = std::function<void(const StageSpec&)>;
 
 class ImperfectPicture {
  public:
-  // To be called with each frame. Follows the scene and the view.
+  // Call in each frame. Updates to the scene and the view.
   void update(const FrameInputs& in, const ImperfectParameters& wanted, const EndStage& endStage);
   // The direct light of a frame.
   struct Direct {
     std::shared_ptr<RadianceImage> picture;
     bool isSettled = false;
-    std::vector<SceneVpl> lights;  // that light the surfaces; only if it is settled
-    bool* gbufferIsCurrent;        // whether the backend has that of the view without a shift
+    std::vector<SceneVpl> lights;  // light samples of the direct light; only if it is settled
+    bool* gbufferIsCurrent;  // whether the backend has the G-buffer of the view without a shift
   };
-  // The picture plus the bounced light. When it is settled, the exact sum is found, over several
-  // frames, at `antialias` shifted pixels.
+  // Returns the picture plus the bounced light. When it is settled, the exact sum is computed over
+  // several frames, with `antialias` subpixel shifts.
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in, const Direct& direct, int antialias,
                                        const SurfacePictureOptions& options,
                                        const EndStage& endStage);
-  // Whether the last picture has the exact sum.
+  // Whether the last picture shows the exact sum.
   bool isDone() const { return exact_.isDone(); }
   int framesLeft() const;
   void forget() { *this = ImperfectPicture(); }

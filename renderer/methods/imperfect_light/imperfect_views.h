@@ -6,7 +6,7 @@
 namespace lamplighter {
 
 const std::vector<MethodView>& imperfectViews();
-// By name, for Inspection::pictures. They refer to the picture.
+// The views by name, for Inspection::pictures. They keep references to the picture.
 std::map<std::string, std::function<ViewPicture()>> imperfectPictures(
     const ImperfectPicture& picture);
 

@@ -6,10 +6,10 @@
 
 namespace lamplighter {
 
-// The view samples that potential lights are weighed by.
+// View samples that estimate the importance of potential lights.
 enum class ViewChoice : uint8_t {
   fixed,   // the same points for all, found by rays
-  random,  // pixels of a jittered grid, others for each potential light
+  random,  // pixels of a jittered grid, different for each potential light
   guided   // pixels near its image
 };
 // The view for which lights and points are chosen.
@@ -42,7 +42,7 @@ struct ImperfectParameters : PathParameters, FrameBudgetParameters, SurfaceParam
   bool raysChoose = true;
   bool operator==(const ImperfectParameters&) const = default;
 
-  // With the values of the paper, if asPublished.
+  // These parameters, with the values of the paper if asPublished.
   ImperfectParameters chosen() const;
   InterleavedOptions interleaved() const { return {{resolution, splats, fill}, interleave}; }
 };

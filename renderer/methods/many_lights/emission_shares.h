@@ -1,5 +1,5 @@
-// The light of emissive surfaces and of the sky that the camera sees, apart for each control of
-// brightness (light_controls.h).
+// The light of emissive surfaces and of the sky that the camera sees, separately for each
+// brightness control (light_controls.h).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class EmissionShares {
   // Adds the picture of the G-buffer that was rendered last, shifted by `jitter` and multiplied by
   // `weight`.
   void add(const FrameInputs& in, const LightControls& controls, vec2 jitter, float weight);
-  // Adds all to a picture, with the gain of each control.
+  // Adds all shares to a picture, with the gain of each control.
   void addTo(Image& picture, std::span<const vec3> gains) const;
 
  private:

@@ -39,33 +39,33 @@ class LightShares {
     const Options& options;
   };
 
-  // Whether the memory suffices for a picture of this size, at least with one share for all lights.
+  // Whether the memory limit allows a picture of this size with at least one share for all lights.
   static bool fits(const View& view, size_t bytes);
 
-  // The picture changed in more than the brightness of lights.
+  // Call when the picture changed in more than the brightness of lights.
   void restart(ManyLightsKernels& kernels);
-  // Goes on with the work of a frame. Moves the G-buffer.
+  // Continues by the work of a frame. Changes the G-buffer.
   void goOn(const Inputs& in);
   bool isDone() const { return phase_ == Phase::done; }
-  // Whether the next goOn() traces the light of corners.
+  // Whether the next goOn() traces corner light.
   bool tracesCorners() const { return phase_ == Phase::corners; }
-  // Steps until it is done, about one per frame.
+  // Approximate number of steps until it is done, about one per frame.
   int stepsLeft() const;
 
-  // How the shares add up to the picture of other brightnesses.
+  // Weights with which the shares add up to a picture with other brightnesses.
   struct Weights {
     std::vector<vec3> ofShares;
-    std::vector<vec3> ofControls;  // those of begin(), for what is emitted towards the camera
-    // Whether the sum has the bits of a fresh start. Otherwise it has the right brightness, and
-    // samples may be shared out otherwise in the end.
+    std::vector<vec3> ofControls;  // for the controls of begin(): emission towards the camera
+    // Whether the sum is bitwise equal to that of a new start. If not, its brightness is right, but
+    // a new start may distribute the samples differently.
     bool isFinal = true;
   };
-  // Nothing if the picture is not such a sum: a light changed that shares its share with others
-  // because memory is short, or a light is new. Requires isDone().
+  // None if the picture is not such a sum: a light changed that has a common share with others
+  // because of the memory limit, or a light is new. Requires isDone().
   std::optional<Weights> weightsFor(const LightControls& controls) const;
   std::shared_ptr<RadianceImage> mix(const View& view, const Weights& weights);
-  // The picture before the light of corners and near lamps was added, with the gains of then; empty
-  // without it.
+  // The picture before corner light and near lamps were added, with the gains at that time; empty
+  // without them.
   Image takeWithoutCorners() { return std::move(withoutCorners_); }
 
   int lightsWithoutShare() const { return lightsWithoutShare_; }
@@ -86,18 +86,18 @@ class LightShares {
   void mixTo(const Weights& weights, Image& picture) const;
 
   Phase phase_ = Phase::idle;
-  int picture_ = 0, pictures_ = 1;                // the jittered picture in progress
-  size_t next_ = 0;                               // the share in progress
-  bool hasEmission_ = false;                      // of the picture in progress
-  int lampRows_ = 0;                              // rows with near lamps of the picture in progress
-  Image nearLamps_;                               // what these change, with the gains of begin()
+  int picture_ = 0, pictures_ = 1;  // the jittered picture in progress
+  size_t next_ = 0;                 // the share in progress
+  bool hasEmission_ = false;        // of the picture in progress
+  int lampRows_ = 0;                // rows with near lamps of the picture in progress
+  Image nearLamps_;                 // the change by near lamps, with the gains of begin()
   std::vector<LightControls::Control> controls_;  // when it began
   std::vector<Share> shares_;
   std::vector<uint32_t> shareOf_;  // by control
   std::vector<vec3> mixedIn_;      // by control of a share for several: its gain; otherwise 1
   EmissionShares emission_;
   int rows_ = 0;            // with corners
-  size_t withCorners_ = 0;  // shares to which they were added
+  size_t withCorners_ = 0;  // number of shares with corner light
   std::vector<BiasCompensation::Pixel> pixels_;
   std::vector<std::vector<BiasCompensation::Contribution>> contributions_;
   Image withoutCorners_;

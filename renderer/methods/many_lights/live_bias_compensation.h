@@ -2,7 +2,7 @@
 // traces the refinement's rays to near surfaces once, with the live VPLs, and pixels of one surface
 // share their results (bias_compensation.h). During an edit, with the camera at rest, pixels keep
 // the relative gain of the settled picture, so that corners do not become dark and bright again;
-// but not where an object moved: a lamp in the place of a corner would be twice as bright.
+// but not where an object moved: a lamp that covers a former corner would be twice as bright.
 #pragma once
 
 #include <memory>
@@ -17,11 +17,11 @@ namespace lamplighter {
 
 class LiveBiasCompensation {
  public:
-  // The camera moved, or something else is shown: discards everything.
+  // Discards everything: the camera moved, or something else is shown.
   void forget() { *this = LiveBiasCompensation(); }
   // The picture changed: the light must be computed again.
   void outdate() { rows_ = 0; }
-  // Forgets the gains of pixels that may have shown these objects or may show them now.
+  // Discards the gains of pixels that may have shown these objects or may show them now.
   void dropGains(const View& view, std::span<const MoverFinder::Mover> movers);
 
   bool isWhole(const View& view) const { return rows_ == view.height; }
@@ -33,8 +33,8 @@ class LiveBiasCompensation {
   std::shared_ptr<RadianceImage> addTo(RadianceImage& settled);
   // Keeps the gains of a settled picture that was completed elsewhere.
   void takeGains(const Image& without, const Image& with);
-  // An unsettled picture, each pixel scaled by its gain when it was settled. Returns the picture
-  // itself if no gains are kept.
+  // An unsettled picture, each pixel multiplied by its gain in the last settled picture. Returns
+  // the picture itself if no gains are kept.
   std::shared_ptr<RadianceImage> scale(Backend& backend,
                                        const std::shared_ptr<RadianceImage>& picture) const;
 

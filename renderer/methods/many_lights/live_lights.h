@@ -1,8 +1,8 @@
-// The VPLs that are shown, with their shadow maps, on their way to the wanted ones. The unit of
-// update is one VPL. While a lamp is dragged, only samples that follow it are shown, as soon as
-// there are enough of them, and carry its flux: a picture with fewer samples is better than one
-// with the lamp at several places. Shadow maps are managed separately: the VPLs whose maps the view
-// reads have one, as far as memory allows (paper 1, 6.2).
+// The VPLs that are shown, with their shadow maps, as they are updated towards the wanted ones. The
+// unit of update is one VPL. While a lamp is dragged, only samples that follow it are shown, as
+// soon as there are enough of them, and carry its flux: a picture with fewer samples is better than
+// one with the lamp at several places. Shadow maps are managed separately: the VPLs whose maps the
+// view reads have one, as far as memory allows (paper 1, 6.2).
 #pragma once
 
 #include <algorithm>
@@ -81,12 +81,12 @@ class LiveLights {
 
   // All VPLs. While more than a twentieth of a set is missing, the sum of the present VPLs carries
   // the flux of the whole set, so that the brightness neither jumps nor accumulates when a light is
-  // added or the number of samples changes. Built once a frame, at the first call after refresh();
-  // updateMaps() then sets what depends on maps.
+  // added or the number of samples changes. Built once per frame, at the first call after
+  // refresh(); updateMaps() then sets the data that depends on maps.
   const LightSampleTable& table() const;
 
   int pending() const;
-  int missingSunTiles() const;  // that are wanted, but not shown
+  int missingSunTiles() const;  // number of tiles that are wanted, but not shown
   int live() const;             // number of samples shown; a sun counts as one
   int oldestFrames() const;
   // Since the last clearChanged(). Fine maps count once all are rendered, because a sum for each

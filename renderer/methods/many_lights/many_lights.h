@@ -39,15 +39,15 @@ class ManyLights final : public GiMethod {
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(*kernels_, std::move(computeTransfer_)); }
   Inspection inspect() const override;
-  // Whether another carrier has the direct light of surfaces that emit, so that they get no light
+  // Whether the direct light of emissive surfaces is computed elsewhere, so that they get no light
   // samples.
   void leaveOutSurfaces(bool areLeftOut) { withoutSurfaces_ = areLeftOut; }
-  // Whether the backend has the G-buffer of the view without a shift. To be set by those who draw
-  // another one between frames.
+  // Whether the backend has the G-buffer of the view without a shift. Must be set by code that
+  // draws another G-buffer between frames.
   bool& gbufferIsCurrent() { return gbufferIsCurrent_; }
   const LinkedPicture& linked() const { return linked_; }
   const FieldPicture& field() const { return field_; }
-  // Of light on surfaces, in the last frame.
+  // Work on light on surfaces in the last frame.
   const SurfaceLight::Counts& surfaceCounts() const { return meshes_.counts(); }
 
  private:
@@ -106,19 +106,19 @@ class ManyLights final : public GiMethod {
   Options options_;        // of the previous frame
   View view_;
   std::optional<View> chosenFor_;  // the view for which VPLs were chosen by importance, if any
-  bool choiceIsCurrent_ = true;    // chosenFor_ is the present view, not an earlier one
+  bool choiceIsCurrent_ = true;    // chosenFor_ is the current view, not an earlier one
   LightPaths paths_;
   PointVisibility pointVisibility_;    // from the view for which VPLs are chosen
   LampImportance lampImportance_;      // from the same view
-  std::vector<LampShare> lampShares_;  // by which direct samples are shared; empty: by flux
+  std::vector<LampShare> lampShares_;  // distribution of direct samples; empty: by flux
   std::vector<VplId> lampIds_;         // their emitters
-  bool lampsAreCurrent_ = true;        // lampShares_ are those of a fresh start
+  bool lampsAreCurrent_ = true;        // lampShares_ are those of a new start
   LiveLights lights_;
   int mapSlots_ = 0;  // slots in the backend, with their maps
   Options::MapRooms mapRooms_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // if enabled
-  PatchDemand demand_;                              // what the database was asked for
-  bool demandIsCurrent_ = false;                    // of the present scene and view alone
+  PatchDemand demand_;                              // patches that were requested from the database
+  bool demandIsCurrent_ = false;                    // it depends only on the current scene and view
   bool patchesChanged_ = false;                     // since the last sum
   size_t visibilityNeeds_ = 0;                      // bytes, lower bound of the last attempt
   int neededFor_ = 0;                               // number of slots of that attempt
@@ -126,11 +126,12 @@ class ManyLights final : public GiMethod {
   std::unique_ptr<LightMaps> lightMaps_;            // if enabled
   std::unique_ptr<PrtLights> prt_;                  // if enabled
   bool gbufferIsCurrent_ = false;
-  // The last sum left pixels, or also highlights, to later frames; from scratch it would have.
+  // Whether the last sum left pixels, or also highlights, to later frames; whether a sum from
+  // scratch would have done so.
   bool sumIsLimited_ = false, isLimited_ = false, isLong_ = false;
   bool isHasty_ = false;                  // the camera moves: fewer samples, more interpolation
   std::shared_ptr<RadianceImage> image_;  // picture with unjittered pixels
-  // Before this frame: of BackendCounts and ManyLightsCounts.
+  // Values of BackendCounts and ManyLightsCounts before this frame.
   uint64_t waitsBefore_ = 0, uploadsBefore_ = 0;
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum
   float interpolatedShare_ = 0.0f;          // of the last sum
@@ -142,7 +143,7 @@ class ManyLights final : public GiMethod {
   LightShares shares_;                    // of the settled picture
   std::shared_ptr<RadianceImage> mixed_;  // from them
   bool imageIsStale_ = false;             // lacks changes of brightness that were mixed
-  // mixed_ is shown until new shares are complete; the shares are those of other samples.
+  // mixed_ is shown until new shares are complete; the current shares are of other samples.
   bool holdsMix_ = false, sharesAreOld_ = false;
   RenderSceneChanges unsampled_;  // changes that the light samples do not have yet
   LiveBiasCompensation corners_;

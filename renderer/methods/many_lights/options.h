@@ -1,4 +1,4 @@
-// The parameters of the method as its stages use them.
+// The parameters of the method in the form that its stages use.
 #pragma once
 
 #include "renderer/methods/imperfect_light/parameters.h"
@@ -9,8 +9,8 @@
 
 namespace lamplighter {
 
-// Read once per frame. Parameters without effect under the others have the value that switches them
-// off, so that two options differ only where the picture or the work does.
+// Read once per frame. Parameters that have no effect are set to the value that disables them, so
+// that two options are equal if the picture and the work are equal.
 struct ManyLightsOptions : ManyLightsParameters {
   // `refines`: the caller has time for refinement. `onProcessor`: the backend renders there.
   ManyLightsOptions(const Settings& settings, bool refines, bool onProcessor,
@@ -35,7 +35,7 @@ struct ManyLightsOptions : ManyLightsParameters {
   int imperfectBounces = 0;
   bool useImperfect() const { return imperfectBounces > 0; }
   ImperfectParameters imperfect() const;
-  // They show the sky, too, without its suns.
+  // They also show the sky without suns.
   bool useMeshes() const { return indirect == ManyLightsIndirect::meshes; }
 
   bool useVisibility() const { return technique != ManyLightsTechnique::naive; }
@@ -43,7 +43,7 @@ struct ManyLightsOptions : ManyLightsParameters {
   // Disables everything that needs the visibility database, as in naive.
   void forgoVisibility();
 
-  // Those by which light is summed.
+  // The options for sums of light.
   const LightSumParameters& lightSums() const { return *this; }
   VplCounts counts() const;
   RefreshBudget budget() const;  // per frame
@@ -53,8 +53,8 @@ struct ManyLightsOptions : ManyLightsParameters {
   size_t lightMapBytes() const { return bytesOf(lightMapMemory); }
   size_t shareBytes() const { return bytesOf(shareMemory); }
 
-  // The maps for a number of slots. Fine maps have the largest resolution for which each slot could
-  // have one in memory, beside its coarse map.
+  // The map sizes for a number of slots. Fine maps have the largest resolution at which each slot
+  // could have one within the memory limit, in addition to its coarse map.
   struct MapRooms {
     MapRoom coarse, fine;
     int scale() const { return fine.maps == 0 ? 1 : fine.resolution / coarse.resolution; }

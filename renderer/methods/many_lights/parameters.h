@@ -1,4 +1,4 @@
-// The parameters of many_lights as they are set. options.h has what its stages use.
+// The parameters of many_lights. options.h has the form that its stages use.
 #pragma once
 
 #include "renderer/methods/common_parameters.h"
@@ -8,15 +8,15 @@
 
 namespace lamplighter {
 
-// The acceleration techniques of the paper, each in addition to those before it.
+// The acceleration techniques of the paper; each includes the previous ones.
 enum class ManyLightsTechnique { naive, visibility, lightMaps };
 
-// What carries bounced light: light samples, or light that is kept on surfaces. automatic: by a
-// rule on the scene (carrier_rule.h) where the backend renders on the processor, samples where
-// showing them reads the picture back.
+// The carrier of bounced light: light samples, or light stored on surfaces. automatic: by a rule on
+// the scene (carrier_rule.h) on the cpu backend; samples on the gl backend, where the other
+// carriers need to read the picture back.
 enum class ManyLightsIndirect { automatic, samples, meshes, links, imperfect, field };
 
-// Those that change how the light of the same light samples is summed. Memory is in MiB.
+// Parameters that change how light samples are summed. Memory is in MiB.
 struct LightSumParameters : SurfaceParameters {
   ManyLightsTechnique technique = ManyLightsTechnique::lightMaps;
   float clampDistance = 0.5f;  // d0 of the bounded geometry term [m]
@@ -58,7 +58,7 @@ struct ManyLightsParameters : LightSumParameters,
 };
 
 const ParameterTable<ManyLightsParameters>& manyLightsParameters();
-// Those of them that methods have whose light samples are all placed on the lights.
+// The parameters for methods whose light samples are all placed on the lights.
 const ParameterTable<ManyLightsParameters>& directSampleParameters();
 
 }  // namespace lamplighter

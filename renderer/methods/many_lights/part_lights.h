@@ -17,8 +17,8 @@ class PartLights {
     bool used = false;  // otherwise all light is summed per pixel
     LightMaps::Options options;
   };
-  // Recomputes everything: these views are used while little changes. `lights`: those of the part
-  // are summed.
+  // Recomputes everything: these views are used while little changes. `lights`: the lights of the
+  // part are summed.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
               const LightSampleTable& lights, const Maps& maps, const LightProxies::Groups& groups);
   void forget() { *this = PartLights(); }

@@ -1,4 +1,4 @@
-// The options of ManyLights as sums of light take them.
+// Converts the options of ManyLights for sums of light.
 #pragma once
 
 #include "renderer/light_maps/light_proxies.h"
@@ -15,7 +15,8 @@ inline shared::ShadingParams shadingOf(const ManyLightsOptions& options, bool is
           vec4(options.speculars ? 1.0f : 0.0f, options.leastRoughness, 0.0f, 0.0f)};
 }
 
-// With fewer VPLs each one matters, including faint ones where there is no other light.
+// With fewer VPLs no groups are used: each VPL matters, including faint ones where there is no
+// other light.
 inline constexpr int kFewestForGroups = 800;
 
 inline LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {

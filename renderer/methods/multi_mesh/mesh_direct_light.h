@@ -10,11 +10,12 @@ namespace lamplighter {
 
 class MeshDirectLight {
  public:
-  // To be called with the changes of each frame, also of those that do not show the light.
+  // Call with the changes of each frame, also in frames that do not show the light.
   void outdate(const RenderSceneChanges& changes) { unseen_.merge(changes); }
-  // `picture` plus the direct light of surfaces. Each call finds the light of about `samples`
-  // vertices more; when none is missing, it is the mean of `antialias` shifted pictures, one a
-  // frame. `gbufferIsCurrent`: whether the backend has the G-buffer of the view without a shift.
+  // Returns `picture` plus the direct light of emissive surfaces. Each call computes the light of
+  // about `samples` more vertices; when none is missing, the result is the mean of `antialias`
+  // pictures with subpixel shifts, one more per frame. `gbufferIsCurrent`: whether the backend has
+  // the G-buffer of the view without a shift; updated by the call.
   std::shared_ptr<RadianceImage> addTo(const FrameInputs& in,
                                        const std::shared_ptr<RadianceImage>& picture, int antialias,
                                        const DirectMeshOptions& options,
@@ -45,10 +46,10 @@ class MeshDirectLight {
   SurfacePictureOptions surfaces_;
   View view_;
   bool isStarted_ = false, isComplete_ = false;  // isComplete_: the picture without a shift
-  int shownSample_ = kNothing;                   // whose pixels the meshes have
+  int shownSample_ = kNothing;                   // sample whose pixels the meshes have
   ByMesh plain_, smooth_, sample_;
-  int averaged_ = 0, antialias_ = 0;  // samples in smooth_; of how many
-  // What was shown last.
+  int averaged_ = 0, antialias_ = 0;  // samples in smooth_; their total number
+  // The picture that was shown last.
   std::shared_ptr<RadianceImage> under_, shown_;
   bool shownIsSmooth_ = false;
 };

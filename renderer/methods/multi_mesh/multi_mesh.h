@@ -1,4 +1,4 @@
-// The method of paper 4: light that is kept on the surfaces.
+// The method of paper 4: light that is stored on the surfaces.
 #pragma once
 
 #include "renderer/methods/gi_method.h"

@@ -7,7 +7,7 @@
 
 namespace lamplighter {
 
-// What carries the direct light of surfaces that emit.
+// The carrier of the direct light of emissive surfaces.
 enum class MultiMeshDirect { meshes, samples };
 
 struct DirectMeshParameters {

@@ -7,9 +7,9 @@
 
 namespace lamplighter {
 
-// Whether the microfacet distribution is computed from the cosine of the half vector, as brdf.h
-// does, or from its sine. With the cosine, rounding makes narrow lobes brighter: by 1% at the
-// roughness 0.05. With the sine it does not.
+// Whether the microfacet distribution is computed from the cosine of the half vector, as in brdf.h,
+// or from its sine. With the cosine, rounding makes narrow lobes brighter (by 1% at roughness
+// 0.05); the sine avoids this.
 enum class LobeArithmetic { fromCosine, fromSine };
 
 class GlossySurface {
@@ -18,7 +18,7 @@ class GlossySurface {
   GlossySurface(const vec3& baseColor, const Gloss& gloss, float leastRoughness, const vec3& normal,
                 const vec3& toEye, LobeArithmetic arithmetic);
 
-  // f for light from the unit direction w [1/sr]; 0 below the surface.
+  // The BRDF f for light from the unit direction w [1/sr]; 0 below the surface.
   vec3 brdf(const vec3& w) const;
   // sample(): a direction from the lobe or the cosine, as `choice` decides. pdf(): its
   // probability density per solid angle; 0 below the surface, where a lobe sample may point.

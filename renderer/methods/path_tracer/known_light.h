@@ -1,4 +1,4 @@
-// Light that is known on surfaces, by which a path may end.
+// Interface to light that is known on surfaces, at which a path may end.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@ namespace lamplighter {
 class KnownLight {
  public:
   virtual ~KnownLight() = default;
-  // What the surface at the hit reflects back along the ray, without its own emission
-  // [W/(m² sr)]. `spread`: the area over which paths like this one spread there [m²]; none where
-  // light is not known as finely. Several threads may call it.
+  // The radiance that the surface at the hit reflects back along the ray, without its emission
+  // [W/(m² sr)]. `spread`: the area over which similar paths spread there [m²]; returns none where
+  // the light is stored too coarsely for it. Thread-safe.
   virtual std::optional<vec3> reflectedAt(const Ray& ray, const Hit& hit, float spread) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// Light that arrives directly at a point of a path: samples of emitters, and their weights against
-// directions that meet an emitter by chance.
+// Direct light at a point of a path: samples of emitters, and their MIS weights against directions
+// that hit an emitter by chance.
 #pragma once
 
 #include "renderer/base/low_discrepancy.h"
@@ -10,7 +10,7 @@ namespace lamplighter {
 
 class LightSamples {
  public:
-  // Refers to its arguments.
+  // Keeps references to its arguments.
   LightSamples(const RenderScene& scene, const RayCaster& rays, const LightSet& lights)
       : scene_(scene), rays_(rays), lights_(lights) {}
 
@@ -26,11 +26,11 @@ class LightSamples {
   // The radiance of the sky for a ray that hits nothing, with the MIS weight against direct().
   vec3 skySeen(const vec3& direction, float pdfDirection) const;
 
-  // Light of an emissive surface, times f · cos, by the sample u of it. The unit vector towards the
-  // sample is put in w.
+  // Light of an emissive surface, times f · cos, from its sample u. `w`: receives the unit vector
+  // towards the sample.
   vec3 fromSurface(const LocalSurface& at, int emitter, vec2 u, vec3& w);
   vec3 fromSky(const LocalSurface& at, vec2 u, vec3& w);
-  // Of one punctual light, with its direction.
+  // The same for one punctual light.
   vec3 fromPunctual(const LocalSurface& at, const RenderPunctual& light, vec3& w);
 
   uint64_t raysTraced() const { return raysTraced_; }

@@ -1,4 +1,4 @@
-// A surface point as a path of the reference meets it.
+// A surface point on a path of the reference.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace lamplighter {
 
-// Of directions of the sphere [1/sr].
+// Uniform density of directions on the sphere [1/sr].
 inline constexpr float kUniformDensity = 1.0f / (4.0f * kPi);
 
 // A surface seen from one side: both normals are turned to the viewer. A mapped normal that faces
@@ -19,8 +19,9 @@ struct LocalSurface {
   Surface s;
   vec3 ng, ns;
   std::optional<GlossySurface> gloss;
-  uint32_t leftOutBy;    // light_linking.h
-  bool isSpace = false;  // a point without surface, which takes all light alike
+  uint32_t leftOutBy;  // light_linking.h
+  bool isSpace =
+      false;  // a point in space without surface, which receives light from all directions equally
 
   LocalSurface(const Surface& surface, const vec3& toViewer, uint32_t links)
       : s(surface), leftOutBy(links) {
@@ -37,7 +38,7 @@ struct LocalSurface {
   float cosine(const vec3& w) const {
     return glm::dot(ng, w) > 0.0f ? std::max(0.0f, glm::dot(ns, w)) : 0.0f;
   }
-  // f · cos for light from w; 1 in space.
+  // The BRDF f times cos for light from w; 1 in space.
   vec3 reflected(const vec3& w) const {
     if (isSpace) return vec3(1.0f);
     const vec3 f = gloss ? gloss->brdf(w) : s.albedo / kPi;
@@ -50,7 +51,7 @@ struct LocalSurface {
   }
 };
 
-// Where rays that leave the surface start.
+// Origin of rays that leave the surface.
 inline vec3 rayOrigin(const LocalSurface& at) {
   return at.s.position + rayEpsilon(at.s.position) * at.ng;
 }

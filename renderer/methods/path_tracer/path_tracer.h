@@ -1,5 +1,5 @@
-// The reference: a simple path tracer, so that it can be trusted. It shares only the scene, the
-// rays and the list of lights with the methods that are compared with it.
+// The reference: a simple path tracer that is easy to verify. It shares only the scene, the rays
+// and the list of lights with the methods that are compared with it.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct PathTracerOptions {
   // roughness.
   bool speculars = false;
   float leastRoughness = 0.1f;
-  // All other surfaces of a path do so, too. Off: they are Lambertian.
+  // All other surfaces of a path use it, too. Off: they are Lambertian.
   bool glossyBounces = false;
   // Both parts use the same random numbers, so they add up to the whole.
   LightPart part = LightPart::all;
@@ -31,7 +31,7 @@ struct PathTracerOptions {
   int sureBounces = 8;
   // Off: the sky and lamps that the camera itself sees are left out (seen_light.h).
   bool seesLights = true;
-  // The point of the pixel that camera rays go through; none: at random.
+  // The point of the pixel through which camera rays go; none: random.
   std::optional<vec2> inPixel = {};
 
   bool operator==(const PathTracerOptions&) const = default;
@@ -44,12 +44,12 @@ vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet
                const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options,
                uint64_t* raysTraced = nullptr);
 
-// An estimate by a path that ends where light is known, and what it lacks because that light is not
-// exact. The expected value of radiance + missing is that of tracePath().
+// An estimate by a path that ends at known light, and a correction for the error of that light. The
+// expected value of radiance + missing equals that of tracePath().
 struct EndedPath {
   vec3 radiance{0.0f}, missing{0.0f};
 };
-// `isWhole`: the path goes on, to find what is missing; otherwise that is 0.
+// `isWhole`: the path continues, to compute `missing`; otherwise `missing` is 0.
 EndedPath traceEndedPath(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
                          const View& view, int x, int y, uint32_t sample,
                          const PathTracerOptions& options, const KnownLight& known, bool isWhole,
@@ -76,8 +76,8 @@ struct ArrivingLight {
 // An unbiased estimate of the light that arrives at a point of space, from sample number `sample`:
 // along a direction with constant density over the sphere, from a point of an emissive surface, and
 // from a direction of the sky, weighted by the balance heuristic. The directions of an aligned
-// power of two of samples are stratified. Without punctual lights. Nothing is left out by links of
-// lights. `bounces` counts the bounces before the light arrives. Depends only on its arguments.
+// power of two of samples are stratified. Without punctual lights. Light linking is ignored.
+// `bounces` counts the bounces before the light arrives. Depends only on its arguments.
 std::array<ArrivingLight, 3> traceArrivingLight(const RenderScene& scene, const RayCaster& caster,
                                                 const LightSet& lights, const vec3& position,
                                                 uint32_t pixel, uint32_t sample,

@@ -1,5 +1,5 @@
-// What each lamp brings to the view, by which the samples on lamps are shared out: those that light
-// much of what the camera sees get more, and those that light none of it may get none.
+// The contribution of each lamp to the view, by which samples are distributed to lamps: lamps that
+// light much of the view get more samples, and lamps that light none of it may get none.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace lamplighter {
 
 // An emitter is left out if both hold, and the lamps of the scene need more than 32 samples:
 // - None of 1024 points of the view receives light from it, which rays find.
-// - Even without shadows it would bring less than a third of the light at each of 128 of them.
+// - Even without shadows it would contribute less than a third of the light at each of 128 of them.
 // Where none of n points is lit, less than 3/n of the picture is, with 95% confidence. So less than
 // 1/1000 of the light of the picture is missing for each lamp that is left out, at the reference
 // brightness of all lamps (reference_brightness.h).
@@ -23,8 +23,8 @@ class LampImportance {
   void outdate(const RenderSceneChanges& changes, std::span<const MoverFinder::Mover> movers);
 
   // One for each emitter of paths.lights(), for its counts; `view`: steadyView(). At the reference
-  // brightness of lights, so that a change of brightness changes nothing. Empty if the choice has
-  // no effect or no lamp lights a point: then samples are shared by flux. 1/d² is bounded at
+  // brightness of lights, so that edits of brightness do not change the result. Empty if the choice
+  // has no effect or no lamp lights a point: then samples are shared by flux. 1/d² is bounded at
   // clampDistance [m].
   std::vector<LampShare> of(const RenderScene& scene, const RayCaster& rays,
                             const LightPaths& paths, const View& view, float clampDistance);

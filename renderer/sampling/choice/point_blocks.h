@@ -1,4 +1,4 @@
-// Points that the camera sees, in blocks of eight, and what a light sample would give them without
+// Points that the camera sees, in blocks of eight, and their irradiance by a light sample without
 // shadows.
 #pragma once
 
@@ -25,8 +25,8 @@ class PointBlocks {
   float rounding() const { return rounding_; }
 
   // Irradiance over intensity of a VPL at the eight points of a block [1/m²; 1 for parallel light],
-  // if nothing is in between; 1/d² is bounded at clampDistance [m]. 0 after the last point.
-  // `out`: eight floats, aligned to 32 bytes. Bit-equal to shared::vplGeometry.
+  // without shadows; 1/d² is bounded at clampDistance [m]. 0 after the last point. `out`: eight
+  // floats, aligned to 32 bytes. Bit-equal to shared::vplGeometry.
   void geometry(const shared::Vpl& vpl, float clampDistance, size_t block, float* out) const {
     geometries(vpl, clampDistance, block, block + 1, out);
   }

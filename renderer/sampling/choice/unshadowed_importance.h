@@ -1,5 +1,5 @@
-// What light samples would bring to the view if nothing cast a shadow: a first, cheap choice among
-// many candidates before rays choose among the rest.
+// Contribution of light samples to the view without shadows: a first, cheap choice among many
+// candidates, before rays choose among the remaining ones.
 #pragma once
 
 #include <span>

@@ -25,8 +25,8 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
                                 std::span<const SceneVpl> others, std::span<const SeenPoint> points,
                                 const RayCaster& rays, float clampDistance, PointVisibility& kept);
 
-// The most that the weight of a chosen VPL, 1/(its probability), is of the mean weight, which is
-// the number of candidates over that of the chosen ones.
+// Upper bound of the weight of a chosen VPL, 1/(its probability), relative to the mean weight,
+// which is the number of candidates divided by the number of chosen ones.
 constexpr float kLargestWeight = 4.0f;
 
 // Chooses `count` candidates, in their order, and scales each to the flux of those that it

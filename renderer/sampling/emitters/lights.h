@@ -29,7 +29,7 @@ struct Emitter {
   // is that of the scene.
   float reference = 0.0f;
   vec3 gain{0.0f};
-  // That of the scene, exactly, because the reference is a power of two.
+  // The brightness in the scene; exact, because the reference is a power of two.
   vec3 brightness() const { return gain * reference; }
   float referenceFlux = 0.0f;  // luminance of the flux at the reference brightness [W]
   float area = 0.0f;           // surface: m²
@@ -58,7 +58,7 @@ class LightSet {
   explicit LightSet(const RenderScene& scene) : LightSet(scene, LightSet()) {}
   // The same, faster: reuses what `before` computed for unchanged textures.
   LightSet(const RenderScene& scene, const LightSet& before);
-  // For paths: chooseSurface() prefers what is near the place.
+  // For paths: chooseSurface() prefers emitters near the point.
   static LightSet forPaths(const RenderScene& scene) { return forPaths(scene, LightSet()); }
   static LightSet forPaths(const RenderScene& scene, const LightSet& before);
 
@@ -77,7 +77,7 @@ class LightSet {
   const SkySampler& sky() const { return sky_; }
   // The sky at its reference brightness.
   const SkySampler& referenceSky() const { return referenceSky_; }
-  // Of its emitters; 0 without a sky.
+  // Reference brightness of the emitters of the sky; 0 without a sky.
   float skyReference() const { return skyReference_; }
   // The sky at unit brightness: the same after any change of brightness.
   Sky unitSky() const;

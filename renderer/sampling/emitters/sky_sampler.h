@@ -13,7 +13,7 @@ class SkySampler {
 
   const Sky& sky() const { return sky_; }
   vec3 radiance(const vec3& towards) const { return sky_.radianceFrom(towards); }
-  // 0 in the suns, which are lights of their own.
+  // 0 in the suns, which are separate lights.
   vec3 withoutSuns(const vec3& towards) const;
 
   // For VPLs and paths: ∫ L dω without the suns [W/m²].
