@@ -58,7 +58,7 @@ recording() {  # recording NAME
   fi
 }
 
-# For light on surfaces and along links: the emulator traces some 100,000 rays a second.
+# For light on surfaces and along links: the emulator traces about 100,000 rays per second.
 few_rays=(--set gather_rays=16 --set coarse_edge=1 --set texel=1 --set link_error=5)
 
 rays assets/scenes/default.gltf 60000

@@ -57,7 +57,7 @@ void addEditActions(ActionRegistry& r) {
   r.add({"edit.undo", "Undo", "", "Undoes the last change.", "Ctrl+Z",
          [](Session& s, const Arguments&) { s.undo(); },
          [](const Session& s) { return s.dragging() || s.editing().canUndo(); }, true});
-  r.add({"edit.redo", "Redo", "", "Redoes the change that was undone last.", "Ctrl+Y, Ctrl+Shift+Z",
+  r.add({"edit.redo", "Redo", "", "Redoes the last undone change.", "Ctrl+Y, Ctrl+Shift+Z",
          [](Session& s, const Arguments&) { s.redo(); },
          [](const Session& s) { return s.editing().canRedo(); }});
   r.add({"edit.delete", "Delete", "", "Deletes the selection.", "Delete",

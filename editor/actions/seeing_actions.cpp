@@ -37,7 +37,7 @@ void addExplain(ActionRegistry& r) {
          "Draws the rays between the explained point and a light, by its row from 0.", "",
          [](Session& s, const Arguments& a) { s.points().explainer().choose(rowOf(a[0])); }});
   r.add(
-      {"explain.blocker", "Select what stands before a light", "ROW [INDEX]",
+      {"explain.blocker", "Select an occluder of a light", "ROW [INDEX]",
        "Selects an occluder between the explained point and a light. Rows and indices start at 0.",
        "", [](Session& s, const Arguments& a) {
          s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
@@ -50,7 +50,7 @@ void addExplain(ActionRegistry& r) {
   r.add({"explain.senders", "Show where bounced light comes from", "",
          "Draws lines from the explained point to the surfaces that reflect light to it.", "",
          [](Session& s, const Arguments&) { s.points().explainer().chooseAllSenders(); }});
-  r.add({"explain.sender_object", "Select what reflects light", "ROW",
+  r.add({"explain.sender_object", "Select an object that reflects light", "ROW",
          "Selects the object that reflects light to the explained point, by its row from 0.", "",
          [](Session& s, const Arguments& a) {
            s.select({s.points().explainer().senderObject(rowOf(a[0]))});

@@ -46,7 +46,8 @@ void addTileActions(ActionRegistry& r) {
          "", [](Session& s, const Arguments& a) { showTiles(s, a); }, nullptr, true,
          [](const Session& s) { return s.split().showsTiles(); }});
   r.add({"split.export", "Export the comparison", "FILE",
-         "Writes all pictures of the split view as one PNG file, with their figures under each.",
+         "Writes all pictures of the split view as one PNG file, with the measurements of each "
+         "below it.",
          "",
          [](Session& s, const Arguments& a) {
            const std::filesystem::path file = s.writablePath(a[0]);

@@ -37,11 +37,14 @@ void addViewActions(ActionRegistry& r) {
          nullptr, true, [](const Session& s) { return s.display().showsVpls(); }});
   r.add({"view.probes", "Light probes", "",
          "Shows light probes as balls with the light that falls on them, as lamplighter bake "
-         "--probes writes it, and one at the pointer with the light between probes.",
+         "--probes writes it, and one at the pointer with interpolated light. Costs paths in each "
+         "frame until all probes are computed.",
          "", [](Session& s, const Arguments&) { s.probes().setOn(!s.probes().on()); }, nullptr,
          true, [](const Session& s) { return s.probes().on(); }});
   r.add({"view.probe_grid", "Grid of light probes", "SPACING [PADDING]",
-         "Sets how far apart light probes are, and their least distance to surfaces (m).", "",
+         "Sets the distance between light probes, and their minimum distance to surfaces (m). "
+         "Smaller distances: more probes, which take longer.",
+         "",
          [](Session& s, const Arguments& a) {
            ProbeGridOptions grid = s.probes().options();
            grid.spacing = numberOf(a[0]);
@@ -63,7 +66,7 @@ void addViewActions(ActionRegistry& r) {
          },
          nullptr, true});
   r.add({"view.choose_light", "Choose light", "NAME",
-         "Chooses the light of the view Occlusion of a light. Selecting a light does so too.", "",
+         "Chooses the light of the view Occlusion of a light. Selecting a light does the same.", "",
          [](Session& s, const Arguments& a) {
            s.display().chooseLight(nodeNamed(s.document(), a[0]).id);
          },
@@ -96,8 +99,8 @@ void addViewActions(ActionRegistry& r) {
   for (const ToneMapperInfo& m : toneMappers())
     mappers += (mappers.empty() ? "" : "|") + std::string(m.name);
   r.add({"view.tone_mapper", "Tone mapper", mappers,
-         "How radiance is mapped to the display. It does not change the lighting, and is not part "
-         "of the level.",
+         "Sets how radiance is mapped to the display. It does not change the lighting, and is not "
+         "part of the level.",
          "",
          [](Session& s, const Arguments& a) {
            s.display().setToneMapper(findToneMapper(a[0]).mapper);

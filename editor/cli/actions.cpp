@@ -75,9 +75,8 @@ void printKeys(const ActionRegistry& registry) {
     columns.push_back(actionOfKey(registry, preset));
     all.insert(columns.back().begin(), columns.back().end());
   }
-  std::cout << "\n## Keys\n\nBy the presets of the setting `keys`; where a column is empty the key "
-               "does the "
-               "same as in the first, and a dash is a key that does nothing.\n\n| key |";
+  std::cout << "\n## Keys\n\nKeys by the presets of the setting `keys`. An empty cell: the key "
+               "does the same as in the first column. A dash: the key does nothing.\n\n| key |";
   for (const std::string& preset : presets) std::cout << " `" << preset << "` |";
   std::cout << "\n| --- |";
   for (size_t i = 0; i < presets.size(); ++i) std::cout << " --- |";

@@ -25,8 +25,8 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   CLI::App app("Lamplighter: a lighting editor for level designers", "lamplighter");
   app.set_version_flag("--version", "lamplighter " LAMPLIGHTER_VERSION);
   app.footer(
-      "Exit codes: 0 good, 1 a check failed, 2 bad use, bad input or a failure.\n"
-      "Example: lamplighter level.glb");
+      "Exit codes: 0 success, 1 a check failed, 2 wrong usage, invalid input or a "
+      "failure.\nExample: lamplighter level.glb");
   cli::Run run;
   EditorOptions editor;
   cli::declareFlags(app, {argv, static_cast<size_t>(argc)}, editor, run, frontend);

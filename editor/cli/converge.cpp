@@ -81,7 +81,7 @@ SceneMove findMove(const Scene& from, const Scene& to, const ConvergeOptions& o)
     throw InputError(o.to, "no node has the name of a node of " + o.from,
                      "name another state of the same level");
   if (move.none())
-    throw InputError(o.to, "has every object and light where and as they are in " + o.from,
+    throw InputError(o.to, "has every object and light in the same place and state as " + o.from,
                      "name a state of the level in which something moved");
   return move;
 }

@@ -98,17 +98,17 @@ std::string manPage(const CLI::App& app) {
     if (!footer.empty()) out += ".PP\n" + footer + "\n";
   }
   out +=
-      ".SH EXIT STATUS\n.TP\n.B 0\nGood.\n.TP\n.B 1\nA check failed.\n.TP\n.B 2\nBad use or bad "
-      "input: one line on standard error says what is wrong and what to do.\n.TP\n.B 130\nStopped "
-      "by Ctrl+C, with what was done kept (bake).\n"
-      ".SH FILES\nShaders and scenes lie in\n.IR share/lamplighter\nbeside the program's folder.\n";
+      ".SH EXIT STATUS\n.TP\n.B 0\nGood.\n.TP\n.B 1\nA check failed.\n.TP\n.B 2\nWrong usage or "
+      "invalid input: one line on standard error says what is wrong and what to do.\n.TP\n.B "
+      "130\nStopped by Ctrl+C; finished work is kept (bake).\n.SH FILES\nShaders and scenes lie "
+      "in\n.IR share/lamplighter\nbeside the program's folder.\n";
   return out;
 }
 
 std::string flagTables(const CLI::App& app) {
   std::string out =
-      "# Flags\n\nWritten by `lamplighter manual --markdown`; what they mean in full is in "
-      "[cli.md](cli.md).\n";
+      "# Flags\n\nWritten by `lamplighter manual --markdown`; [cli.md](cli.md) explains them in "
+      "full.\n";
   const auto add = [&](const CLI::App& of, const std::string& name) {
     out += fmt::format("\n## {}\n\n{}.\n\n| flag | default | |\n| --- | --- | --- |\n", name,
                        of.get_description());

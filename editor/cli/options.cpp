@@ -40,7 +40,7 @@ void applyFlags(Settings& settings, const MethodFlags& o, const MethodInfo& meth
       used = true;
     }
     if (!used)
-      std::cerr << fmt::format("warning: {} means nothing to {}; it is left out\n", s.flag,
+      std::cerr << fmt::format("warning: {} has no effect with {}; it is ignored\n", s.flag,
                                method.name);
   }
   for (const std::string& a : o.assignments) setFromAssignment(settings, method, a);

@@ -257,7 +257,7 @@ void Session::frameFailed(const std::exception& e, const FrameFailures::Input& i
     output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
   output_.settled = output_.refined = next == FrameFailures::Next::wait;
   if (next != FrameFailures::Next::leaveGl) return;
-  setStatus("The gl backend failed twice: the cpu backend is used now", NoticeKind::warning);
+  setStatus("The gl backend failed twice: the cpu backend renders now", NoticeKind::warning);
   renderer_->setBackend(makeCpuBackend());
 }
 

@@ -15,7 +15,7 @@ const std::vector<DebugViewInfo>& fixedViews() {
   const Needs ofPatches{patches}, ofLights{lights}, ofPatchesAndLights{patches, lights},
       ofTexels{texels}, ofElements{elements}, ofTransfer{transfer};
   static const std::vector<DebugViewInfo> views = {
-      {DebugView::lit, "lit", "Lit", "Alt+1", "The picture as it is."},
+      {DebugView::lit, "lit", "Lit", "Alt+1", "The picture without changes."},
       {DebugView::lightOnly, "light_only", "Light only", "Alt+2",
        "Incident light: the picture with a white albedo on every surface."},
       {DebugView::direct, "direct", "Direct light", "",
@@ -69,7 +69,7 @@ const std::vector<DebugViewInfo>& fixedViews() {
        "How much the light differs between the corners of each element.", views::meshContrast,
        ofElements},
       {DebugView::meshAge, "mesh_age", "Age of elements", "",
-       "The fraction of the rays of each element that are out of date or missing.", views::meshAge,
+       "The fraction of the rays of each element that are outdated or missing.", views::meshAge,
        ofElements},
       {DebugView::mapAge, "map_age", "Map age", "",
        "The mean number of frames since the light samples that reach a point were updated.",

@@ -67,7 +67,7 @@ ViewPicture meshSamples(const ViewSubject& in) {
   out.legend.title = "The light of pixels is that of";
   out.legend.swatches = {{colours::kNone, "elements"},
                          {colours::kPartial, "records at pixels"},
-                         {colours::kFull, "neighbours: the corner is inside of a wall"}};
+                         {colours::kFull, "neighbours: the corner is inside a wall"}};
   return out;
 }
 

@@ -127,7 +127,7 @@ ViewPicture lightOcclusion(const ViewSubject& in) {
     const vec3 colour = samples.empty() ? colours::kNoData : colourOf(shares[i]);
     return outlined(p, s, i, shaded(colour, s));
   });
-  out.legend.title = "Share of the light that nothing stands before";
+  out.legend.title = "Unoccluded share of the light";
   for (int i = 0; i <= 32; ++i) out.legend.ramp.push_back(colourOf(static_cast<float>(i) / 32.0f));
   out.legend.low = "none";
   out.legend.high = "all";
@@ -156,7 +156,7 @@ ViewPicture lightMapDensity(const ViewSubject& in) {
     const bool has = apart[i] > 0 && s.front;
     return outlined(p, s, i, shaded(has ? colours::ramp(t) : colours::kNoData, s));
   });
-  out.legend.title = "Texels of light maps apart";
+  out.legend.title = "Distance of light map texels";
   out.legend.ramp = colours::rampSteps();
   out.legend.low = "0";
   char text[32];

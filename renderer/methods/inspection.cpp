@@ -4,7 +4,7 @@ namespace lamplighter {
 
 const char* nameOf(Capability capability) {
   static constexpr const char* kNames[] = {
-      "light samples",        "patches", "texels", "elements of surface",
+      "light samples",        "patches", "texels", "surface elements",
       "precomputed transfer", "points",  "links"};
   return kNames[static_cast<size_t>(capability)];
 }

@@ -76,7 +76,7 @@ ViewPicture linkCounts(const TexelViewSubject& in) {
 ViewPicture segments(const TexelViewSubject& in) {
   ViewPicture view = drawn(
       in, [&](uint32_t t) { return vec3(in.light.depths().segmentShareOf(t) / kManySegments); });
-  addRamp(view, "Depths kept, of one for each pixel", percent(kManySegments));
+  addRamp(view, "Stored depths per pixel of depth maps", percent(kManySegments));
   view.problem = problemOfDepths(in);
   return view;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr StageSpec kRepairStage{"repair", "Repair",
                                  "Tracing paths of the reference to repair a picture at rest, and "
-                                 "rays for smooth edges before.",
+                                 "rays for antialiased edges before.",
                                  StageWork::preview};
 
 struct RepairStats {

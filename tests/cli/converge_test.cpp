@@ -81,7 +81,7 @@ class ConvergeCommand : public testing::Test {
 
 TEST_F(ConvergeCommand, TheErrorFallsAfterAMove) {
   const std::string to = writeMoved(), reference = renderReference(to);
-  // A few light samples a frame, so that the first frames show little of the edit.
+  // Few light samples per frame, so that the first frames show little of the edit.
   const json j =
       measured({to, "--against", reference, "--mask", writeMask(), "--set", "updates=16"});
   const double start = j["curve"].front()["error"], end = j["end"];

@@ -125,7 +125,7 @@ TEST_F(RenderView, RefusesViewsThatItCannotShow) {
   fails("a.png", {"--view", "occlusion", "--set", "technique=visibility", "--view-vpl", "1000"},
         "there is no light sample 1000; give one from 0 to ");
   fails("a.png", {"--view", "mesh_age", "--set", "indirect=samples"},
-        "needs elements of surface: choose many_lights with indirect=meshes, or multi_mesh");
+        "needs surface elements: choose many_lights with indirect=meshes, or multi_mesh");
   fails("a.png", {"--view", "prt_objects"}, "choose many_lights with prt");
   fails("a.png", {"--view", "edge_mask", "--set", "block=1"}, "needs block above 1");
   fails("a.exr", {"--view", "false_colour"}, "is not radiance");

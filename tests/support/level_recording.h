@@ -31,7 +31,7 @@ class LevelRecording {
   LevelRecording(Scene level, const View& view);
 
   const Scene& scene() const { return scene_; }
-  // After so many frames of a step, of 1 to its number of frames.
+  // After this number of frames of a step, from 1 to its number of frames.
   State after(size_t step, int frame) const;
   NodeId lamp() const { return lamp_; }
   NodeId box() const { return box_; }

@@ -25,7 +25,7 @@ struct MethodRoom {
   // Edits the scene only.
   SceneChanges edit(const std::function<void(Scene&)>& change);
   Image edited(const std::function<void(Scene&)>& change) { return picture(edit(change)); }
-  // Settled pictures from nothing, means of 4 × 4 pixels, against 1,024 paths a pixel.
+  // Settled pictures from nothing, means of 4 × 4 pixels, against 1,024 paths per pixel.
   Metrics freshAgainstReference();
   // The picture of a part of the light, from nothing.
   Image freshPart(LightPart part, bool lightOnly = false);

@@ -39,7 +39,7 @@ for vpls in 1024 4096 16384 65536; do
 done
 for spp in "$@"; do
   for bounces in 0 1 5; do
-    row "reference, $spp paths a pixel" cornell $bounces --method reference --spp "$spp"
+    row "reference, $spp paths per pixel" cornell $bounces --method reference --spp "$spp"
   done
 done
-row "reference, $1 paths a pixel" cornell_lightmoved 1 --method reference --spp "$1"
+row "reference, $1 paths per pixel" cornell_lightmoved 1 --method reference --spp "$1"

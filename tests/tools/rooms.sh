@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How soon the live picture is near the path tracer in rooms that bounced light alone lights, after
 # the lamp or an object moved, as a table. Five bounces, means of 8 x 8 pixels.
-#   rooms.sh LAMPLIGHTER [PATHS A PIXEL]
+#   rooms.sh LAMPLIGHTER [PATHS PER PIXEL]
 set -euo pipefail
 lamplighter=$1 paths=${2:-256}
 cd "$(dirname "$0")/../.."

@@ -38,10 +38,10 @@ std::string stateText(const LightShare& l) {
 std::string stateHelp(const LightShare& l) {
   switch (l.state) {
     case LightArrival::off:
-      return "It is hidden, or has no strength.";
+      return "The light is hidden, or its strength is 0.";
     case LightArrival::unsampled:
-      return "Brighter lights use all light samples. With more light samples, this light gets "
-             "some, too.";
+      return "All light samples are used by brighter lights. With more light samples, this light "
+             "gets some, too.";
     case LightArrival::away:
       return "The surface faces away from the light, or is behind it or outside its cone.";
     default:
@@ -71,7 +71,7 @@ void header(const PanelContext& ui, const Explanation& e, Requests& requests) {
   ImGui::SameLine(0, ui.px(14));
   colouredText(luxText(e.irradiance), theme::kAccent);
   ui.name("irradiance");
-  tooltip(ui, "Light that falls on the surface, of all lights and bounces together.");
+  tooltip(ui, "Illuminance of the surface by all lights and bounces together.");
 }
 
 void blockers(const PanelContext& ui, const LightShare& l, int row, Requests& requests) {

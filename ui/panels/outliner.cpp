@@ -77,7 +77,7 @@ class Tree {
 
   void draw() {
     for (const Node* node : children_[kNoNode]) drawNode(*node);
-    if (!state_.search.empty() && matches_.empty()) note("No object has that in its name.");
+    if (!state_.search.empty() && matches_.empty()) note("No object has this text in its name.");
     if (children_.empty()) note("The scene is empty.");
   }
 
@@ -156,7 +156,7 @@ class Tree {
     const float width = ImGui::GetFrameHeight();
     const float right = ImGui::GetWindowContentRegionMax().x;
     ImGui::SameLine(right - 2 * width);
-    if (mark("lock", widget, node.locked ? "Unlock" : "Lock: not to be picked or moved in the view",
+    if (mark("lock", widget, node.locked ? "Unlock" : "Lock: cannot be picked or moved in the view",
              node.locked ? icon::kLock : icon::kUnlock, node.locked, hovered || node.locked))
       setLocked(ui_.session.editing(), {node.id}, !node.locked);
     ImGui::SameLine(right - width);

@@ -83,7 +83,7 @@ void chosenLine(const PanelContext& ui, const ParameterSpec& spec) {
   if (text == chosen.end()) return;
   rightAligned(text->second, theme::kTextDim);
   ui.name(spec.name + "/chosen");
-  tooltip(ui, "What the method chose for this scene, and why.");
+  tooltip(ui, "The choice of the method for this scene, and the reason.");
 }
 
 }  // namespace

@@ -36,11 +36,11 @@ void senderRow(const PanelContext& ui, const LightSenders& senders, const LightS
     requests.actions.push_back(action);
   ui.name(widget);
   tooltip(ui,
-          fmt::format("{}{}{}: gives the point {}, {} of its bounced light. A click draws lines "
-                      "to the places from which it comes, in its colour; brighter "
-                      "lines bring more.",
-                      sender.name, sender.material.empty() ? "" : ", ", sender.material,
-                      luxText(sender.irradiance), percentText(senders.shareOf(sender))));
+          fmt::format(
+              "{}{}{}: contributes {} to the point, {} of its bounced light. Click to draw lines "
+              "to the places from which it comes, in its colour; brighter lines contribute more.",
+              sender.name, sender.material.empty() ? "" : ", ", sender.material,
+              luxText(sender.irradiance), percentText(senders.shareOf(sender))));
   ImGui::TableNextColumn();
   colouredText(sender.material, theme::kTextDim);
   ImGui::TableNextColumn();
@@ -88,9 +88,8 @@ void senderRows(const PanelContext& ui, float mostRows, Requests& requests) {
   colouredText(luxText(senders.irradiance), theme::kAccent);
   ui.name("bounced");
   tooltip(ui,
-          "Light that falls on the surface after it was reflected by others, as the method "
-          "finds it on the surface. The lights above get theirs from light samples, so sums "
-          "may differ a little.");
+          "Bounced illuminance of the surface, as the method stores it on the surface. The values "
+          "of the lights above are from light samples, so sums may differ slightly.");
   if (senders.rows.empty()) {
     note("No surface reflects light to this point.");
     return;

@@ -63,13 +63,14 @@ std::string frameTime(double seconds) {
 std::string errorHelp(const ErrorMeter& meter) {
   const std::string blocks = std::to_string(meter.block());
   std::string help =
-      "How far the picture is from the path-traced reference: the root mean square of "
-      "the difference of blocks of " +
+      "Error of the picture against the path-traced reference: the root mean square of the "
+      "difference of blocks of " +
       blocks + " x " + blocks +
-      " pixels, as a share of the mean; blocks that show a lamp itself are left out. The "
-      "reference's own noise is taken out; "
-      "what it leaves unknown stands behind the \u00b1 (one standard deviation).";
-  if (meter.estimate()) help += " " + grouped(meter.estimate()->samples) + " paths a block so far.";
+      " pixels, relative to the mean; blocks that show a lamp itself are left out. The noise of "
+      "the reference is subtracted; the remaining uncertainty follows the \u00b1 (one standard "
+      "deviation).";
+  if (meter.estimate())
+    help += " " + grouped(meter.estimate()->samples) + " paths per block so far.";
   return help;
 }
 

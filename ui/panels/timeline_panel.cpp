@@ -173,7 +173,7 @@ void drawLegend(const PanelContext& ui) {
         (std::string(stage.label) + (took ? "  " + milliseconds(mean) : "")).c_str());
     ImGui::PopStyleColor();
     tooltip(ui, std::string(stage.meaning) +
-                    " Mean of the frames in which it took any time: " + milliseconds(mean) + ".");
+                    " Mean over the frames with this stage: " + milliseconds(mean) + ".");
   }
   ImGui::EndTable();
 }

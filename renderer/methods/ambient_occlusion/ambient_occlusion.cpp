@@ -171,18 +171,19 @@ class AmbientOcclusion final : public GiMethod {
 }  // namespace
 
 MethodInfo ambientOcclusionInfo() {
-  return {"ambient_occlusion",
-          "Ambient occlusion",
-          "S. Zhukov, A. Iones, G. Kronin: An ambient light illumination model. Eurographics "
-          "Rendering Workshop 1998.",
-          parameterTable().specs(),
-          statisticTable().specs(),
-          {std::begin(kAmbientOcclusionStages), std::end(kAmbientOcclusionStages)},
-          [](Backend&) { return std::make_unique<AmbientOcclusion>(); },
-          {{Service::rays}},
-          {},
-          {{kView, "Accessibility",
-            "The share of an even sky's light that near surfaces let through, from 0 to 1."}}};
+  return {
+      "ambient_occlusion",
+      "Ambient occlusion",
+      "S. Zhukov, A. Iones, G. Kronin: An ambient light illumination model. Eurographics "
+      "Rendering Workshop 1998.",
+      parameterTable().specs(),
+      statisticTable().specs(),
+      {std::begin(kAmbientOcclusionStages), std::end(kAmbientOcclusionStages)},
+      [](Backend&) { return std::make_unique<AmbientOcclusion>(); },
+      {{Service::rays}},
+      {},
+      {{kView, "Accessibility",
+        "The share of the light of a uniform sky that near surfaces do not block, from 0 to 1."}}};
 }
 
 }  // namespace lamplighter

@@ -174,7 +174,7 @@ struct FieldDrawing {
 const std::vector<FieldDrawing>& fieldDrawings() {
   static const std::vector<FieldDrawing> all{
       {{"field_texels", "Texels of the field",
-        "The texels that keep the light of the field, each in another shade."},
+        "The texels that store the light of the field, each in a different shade."},
        texelsOfField},
       {{"field_lines", "Crossings of lines",
         "How many surfaces the line of each texel crosses, along the direction of the field that "

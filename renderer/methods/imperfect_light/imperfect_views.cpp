@@ -57,7 +57,7 @@ ViewPicture importanceView(const ImperfectPicture& in) {
       paint(out.image, x, y, isChosen[i] != 0 ? kChosen * (0.3f + 0.7f * grey) : grey);
     }
   }
-  out.legend.title = "What potential samples bring to the view";
+  out.legend.title = "Contribution of potential samples to the view";
   out.legend.ramp = {vec3(0.0f), vec3(1.0f)};
   out.legend.low = "1/10000";
   out.legend.high = "most";

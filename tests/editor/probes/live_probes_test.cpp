@@ -1,4 +1,4 @@
-// Light probes in the editor: found over many frames, and anew after an edit.
+// Light probes in the editor: computed over many frames, and again after an edit.
 #include "editor/probes/live_probes.h"
 
 #include "editor/probes/probe_overlay.h"

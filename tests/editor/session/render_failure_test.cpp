@@ -203,7 +203,7 @@ const char* methodOfFailingTransfer() {
   return name.c_str();
 }
 
-// A picture does without the transfer that its thread could not compute.
+// A picture lacks the transfer that its thread could not compute.
 TEST_F(RenderFailure, OfTheThreadOfTransferIsTold) {
   Scene scene = session_.document().scene;
   const NodeId sphere = test::addMesh(scene, test::sphereMesh(0.5f, 16), vec3(0.0f, 1.0f, 0.0f));

@@ -10,7 +10,7 @@ TEST(DimLights, ACandleOfFewSamplesIsKeptBesideTheSun) {
   test::expectKeepsACandle(makeCpuBackend(), 1000);
 }
 
-// So many lights are summed in two parts. Both are kept from frame to frame.
+// This number of lights is summed in two parts. Both are kept between frames.
 TEST(DimLights, ChangesOfManyLightsLeaveTheBitsOfAFreshSum) {
   const View view = test::viewOfFloor();
   test::LitScene lit(test::darkRoomBelowAPlain());

@@ -169,7 +169,7 @@ TEST_F(GlPatches, WithoutMemoryForLightMapsPixelsSumAllLights) {
   }
 }
 
-// So many lights that they need several uniform blocks and several texture arrays of shadow maps;
+// A number of lights that needs several uniform blocks and several texture arrays of shadow maps;
 // two kinds of light.
 TEST_F(GlPatches, ThousandsOfLightsEqualTheCpuBackend) {
   Scene scene = test::loadAsset("pillar_room");

@@ -197,7 +197,7 @@ TEST(OccluderPoints, FollowAMovedObjectAtOnce) {
   const OccluderPointArrays& after = level.points.arrays();
   uint32_t followed = 0;
   for (uint32_t j = 0; j < level.points.size(); ++j) {
-    if (level.points.ageOf(j) == 0) continue;  // drawn anew
+    if (level.points.ageOf(j) == 0) continue;  // drawn again
     const bool isMoved = before.object[j] == 1;
     followed += isMoved;
     ASSERT_EQ(after.object[j], before.object[j]);

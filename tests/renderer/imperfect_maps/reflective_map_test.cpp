@@ -138,7 +138,7 @@ TEST(ReflectiveMap, DoesNotDependOnThreads) {
   expectSameMap(all.map, FollowedMap(room.scene).map);
 }
 
-// More lights than columns: the brightest ones stand for all.
+// More lights than columns: the brightest ones represent all.
 TEST(ReflectiveMap, KeepsTheFluxOfLightsWithoutColumns) {
   LampRoom room;
   for (int i = 0; i < 40; ++i)

@@ -73,7 +73,7 @@ TEST(FrameTimeControl, RecoversFromOneSlowFrame) {
   EXPECT_NEAR(workAfter(control, {0.0005, 0.02, 1000}, 0.05, 20).updates, 60, 2);
 }
 
-// Refinement costs something else than updates.
+// The cost of refinement differs from that of updates.
 TEST(FrameTimeControl, FillsTheFrameWithRefinement) {
   FrameTimeControl control;
   for (int i = 0; i < 40; ++i) {

@@ -16,8 +16,8 @@ namespace {
 
 using test::settledPicture;
 
-// The names "transfer", "reflecting transfer" and "blocks of N" stand for light maps with that
-// option, "glossy" for light maps in a room of glossy surfaces.
+// The names "transfer", "reflecting transfer" and "blocks of N" mean light maps with that option,
+// "glossy" for light maps in a room of glossy surfaces.
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
   const bool usesTransfer = technique.ends_with("transfer");
@@ -160,7 +160,7 @@ TEST(KeptSums, ADragCostsOnlyWhatItAffects) {
 }
 
 // Unchanged lights are looked up again only where the mover may be in their shadow maps. The first
-// edit looks up all of them, because the shadow mask cache is recorded from then on.
+// edit looks up all of them, because recording of the shadow mask cache starts then.
 TEST(KeptSums, UnchangedLightsAreLookedUpOnlyWhereTheirMapsChanged) {
   Room room;
   room.view.width = 240;

@@ -16,7 +16,7 @@ namespace {
 
 class EveryMethod : public testing::TestWithParam<std::string> {};
 
-constexpr int kFrameStep = 10;  // so many frames of the recording are one here
+constexpr int kFrameStep = 10;  // this number of frames of the recording is one here
 
 TEST_P(EveryMethod, PlaysTheRecordingOfTheTable) {
   const test::AssetRoom room("table_room", 48, 36);

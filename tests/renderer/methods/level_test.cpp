@@ -1,4 +1,4 @@
-// Scenes of so many surfaces that the visibility database has only those in view.
+// Scenes with many surfaces, for which the visibility database contains only those in view.
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"

@@ -3,7 +3,6 @@
 #include <tbb/global_control.h>
 
 #include "renderer/image/average_blocks.h"
-#include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
 #include "tests/support/method_room.h"
 
@@ -79,7 +78,7 @@ TEST(LightFieldMethod, LightOfTheSkyIsNearTheReference) {
   const Metrics m = compareImages(averageBlocks(room.fresh(), 4), averageBlocks(reference, 4));
   EXPECT_LT(m.relRmse, 0.05);
   EXPECT_LT(std::abs(m.bias - 1.0), 0.02);
-  // Another sky finds nothing anew.
+  // Another sky needs no new partners.
   room.settings.set("field_sets", 1);
   room.picture(SceneChanges::all());
   const Image dimmed = room.edited([](Scene& s) { s.sky = Sky(vec3(0.2f, 0.4f, 0.8f)); });

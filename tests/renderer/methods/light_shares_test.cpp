@@ -124,8 +124,8 @@ TEST(LightShares, ALightThatStartsOffComesOnInTheNextFrame) {
   EXPECT_TRUE(test::sameBits(out.radiance->pixels(), mix.fresh()));
 }
 
-// Beyond a step of the reference brightness samples are shared out anew, over several frames. Until
-// they are there, the picture is the mix of the samples from before.
+// After a change beyond a step of the reference brightness, samples are distributed again, over
+// several frames. Until they are there, the picture is the mix of the samples from before.
 TEST(LightShares, ALargeChangeIsShownAtOnceAndSettlesToTheBitsOfAFreshRender) {
   Mix mix;
   Image last = mix.settle(SceneChanges::all());

@@ -1,4 +1,4 @@
-// What glossy surfaces mirror: from the second frame at rest on, and also without antialiasing.
+// Glossy reflections: shown in the second frame at rest, also without antialiasing.
 #include <gtest/gtest.h>
 
 #include "tests/support/lit_scene.h"

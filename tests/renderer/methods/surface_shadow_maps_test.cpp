@@ -41,7 +41,7 @@ TEST(SurfaceShadowMaps, EditsLeaveTheBitsOfAFreshStart) {
   room.expectEditsLeaveFreshBits();
 }
 
-// The light of before stays, and moves with the object, until its links are found anew.
+// The old light is kept, and moves with the object, until its links are computed again.
 TEST(SurfaceShadowMaps, AnObjectThatMovesKeepsItsLight) {
   BouncedRoom room;
   room.settings.set("antialias", 1);
@@ -148,7 +148,7 @@ TEST(SurfaceShadowMaps, ThePictureDoesNotDependOnThreads) {
   EXPECT_TRUE(test::sameBits(room.fresh(), expected));
 }
 
-// The links are kept: only the direct light of the lamp is found anew.
+// The links are kept: only the direct light of the lamp is computed again.
 TEST(SurfaceShadowMaps, ALampThatMovesFindsNoLinksAnew) {
   BouncedRoom room;
   room.picture(SceneChanges::all());

@@ -141,8 +141,8 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
   std::cout << "relRMSE " << 100.0 * error << "%\n";
 }
 
-// With so many light samples that not even the roots fit: the picture is that of `naive` until the
-// limit is raised.
+// With more light samples than even the roots have memory for: the picture is that of `naive` until
+// the limit is raised.
 TEST(VisibilityMemory, IfNothingFitsThePictureIsThatOfNaive) {
   test::AssetRoom room("pillar_room", 64, 40);
   const auto box = test::boxMesh(vec3(0.05f));

@@ -29,7 +29,7 @@ const std::vector<std::string> kBackends = {"cpu", "gl"};
 // texels per side of maps at rest; the first is used for all tables
 using Resolutions = std::vector<int>;
 
-constexpr int kGroupedVpls = 800;  // from this number of VPLs on they are grouped
+constexpr int kGroupedVpls = 800;  // VPLs are grouped if there are at least this many
 
 // A number of VPLs that a scene of this size can render in reasonable time.
 int fewVpls(size_t triangles) { return triangles < 10000 ? 300 : 100; }
@@ -250,7 +250,7 @@ int main(int argc, char** argv) {
   lamplighter::equality::Options options;
   CLI::App app("Each technique against naive: docs/results/equality.md");
   app.add_option("--pictures", options.folder, "Folder for pictures of what is over its limit");
-  app.add_option("--maps", options.resolutions, "Texels a side of the shadow maps at rest")
+  app.add_option("--maps", options.resolutions, "Texels per side of the shadow maps at rest")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(8, 1024))

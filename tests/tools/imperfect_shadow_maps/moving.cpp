@@ -82,7 +82,7 @@ void printMoving(const std::filesystem::path& file, const std::string& camera,
     view.eye += kStep * view.right();
     changes = compare(before, scene);
   }
-  std::cout << fmt::format("\n{}, {}: {:.0f} ms a frame", file.stem().string(), method,
+  std::cout << fmt::format("\n{}, {}: {:.0f} ms per frame", file.stem().string(), method,
                            1e3 * total / (kFrames - 1));
   for (const auto& [name, seconds] : stages)
     if (seconds > 5e-4 * (kFrames - 1))

@@ -4,8 +4,8 @@
 //   lamplighter_methods_table LEVEL METHOD strip FILE.png   (drag_strip.h)
 // METHOD: a method, with its parameters as in "many_lights,indirect=samples", or a preset as
 // "preset.draft"; "truth" writes the references, pictures of the path tracer after each step, into
-// the folder REFERENCES, and prints the paths a pixel and the noise of the worst of them. Prints a
-// row of CSV for each step; to CURVES it appends the error over time.
+// the folder REFERENCES, and prints the paths per pixel and the noise of the worst of them. Prints
+// a row of CSV for each step; to CURVES it appends the error over time.
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -33,13 +33,14 @@ namespace {
 namespace fs = std::filesystem;
 using test::LevelRecording;
 
-// References get paths in passes until their noise is small enough, but at most so many.
+// Maximum number of paths of a reference; paths are added in passes until its noise is small
+// enough.
 constexpr int kPathsOfPass = 32, kMostPaths = 256;
 constexpr double kNoise = 0.01;
 // Not that of the method reference, whose noise would be the same.
 constexpr int kSeed = 77;
 constexpr int kBlock = PlayedSession::kBlock;
-// How long each step is watched, from its last frame of motion on [s].
+// Time for which each step is measured after its last frame of motion [s].
 constexpr double kSeconds = 8.0;
 // A row of the curves where time has grown by this factor.
 constexpr double kRowFactor = 1.25;

@@ -12,7 +12,7 @@ namespace lamplighter {
 struct PlayedSession {
   static constexpr int kWidth = 320, kHeight = 240;  // of pictures
   static constexpr int kBounces = 5;
-  static constexpr int kBlock = 4;  // pictures are compared by means of so many pixels a side
+  static constexpr int kBlock = 4;  // side of the blocks whose means are compared [pixels]
 
   // On the cpu backend, without a level. `method`: with parameters, "many_lights,vpls=100".
   explicit PlayedSession(const std::string& method);

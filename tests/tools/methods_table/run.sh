@@ -48,7 +48,7 @@ done
 # A table for each level: of opening the first frame and its error, and how long it takes from there; of
 # motions the mean of frames and the error of the first frame after the last motion.
 awk -F, '
-  FNR == NR { truth[$1] = sprintf("%s paths a pixel, noise %.1f%%", $2, 100 * $3); next }
+  FNR == NR { truth[$1] = sprintf("%s paths per pixel, noise %.1f%%", $2, 100 * $3); next }
   FNR == 1 { next }
   $1 != level {
     level = $1

@@ -157,7 +157,7 @@ void printPriorities(const std::vector<fs::path>& scenes) {
   }
 }
 
-// Section 3: a mesh for each light, or one for all: vertices that are found anew by edits.
+// Section 3: a mesh for each light, or one for all: vertices that are computed again after edits.
 void printSeparation(const std::vector<fs::path>& scenes) {
   std::cout << "\n| scene | meshes | at first | first light brighter | first light moved | all "
                "lights off but one |\n| --- | --- | --- | --- | --- | --- |\n";

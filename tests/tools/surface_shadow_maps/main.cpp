@@ -196,7 +196,7 @@ double errorOf(const Texels& texels, const std::vector<vec3>& light,
 
 void printLinks(const std::vector<Level>& levels) {
   std::cout
-      << "\n| scene | texels | link_error | links a texel | found, s | a bounce, ms | relRMSE "
+      << "\n| scene | texels | link_error | links per texel | found, s | per bounce, ms | relRMSE "
          "| by rays instead of depths |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const Level& level : levels) {
     const Texels texels(level.file, level.texels.back(), TexelOrder::zigzag);

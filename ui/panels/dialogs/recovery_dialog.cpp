@@ -39,7 +39,7 @@ RecoveryDialog::Answer RecoveryDialog::draw(PanelContext ui) {
     return Answer::none;
   const Recoverable& newest = found.front();
   ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted("Lamplighter ended before this was saved:");
+  ImGui::TextUnformatted("Lamplighter ended before these changes were saved:");
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, ui.px(2)});
   line(ui, "Level", newest.scene.empty() ? "untitled" : newest.scene.filename().string());

@@ -53,11 +53,12 @@ bool strengthField(const PanelContext& ui, const std::string& step, const LightM
   const LightUnit unit = unitFor(measure, wanted);
   static constexpr std::array kLabels = {"Flux", "Intensity", "Radiance", "Power", "Illuminance"};
   static constexpr std::array kHelp = {
-      "Light of the whole lamp, in lumens. A bulb gives 600 to 1200 lm.",
-      "Light in the direction of most, in candela.",
+      "Luminous flux of the whole lamp, in lumens. A bulb gives 600 to 1200 lm.",
+      "Luminous intensity in the brightest direction, in candela.",
       "Brightness of the surface, in nits (cd/m\u00b2).",
-      "Light of the whole lamp in watts, at 683 lm/W: a tenth or less of what it draws.",
-      "On a surface that faces the light, in lux; the sun gives 100,000 lx."};
+      "Luminous flux of the whole lamp in watts, at 683 lm/W: a tenth or less of its electrical "
+      "power.",
+      "Illuminance of a surface that faces the light, in lux; the sun gives 100,000 lx."};
   labelledRow(ui, kLabels[static_cast<size_t>(unit)], kHelp[static_cast<size_t>(unit)]);
   const float unitWidth = ui.px(52);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - unitWidth - ui.px(5));
@@ -85,7 +86,7 @@ bool strengthField(const PanelContext& ui, const std::string& step, const LightM
     }
   }
   ui.name("unit");
-  tooltip(ui, "Lumens, candela, nits or watts, of all lights.");
+  tooltip(ui, "Unit of the strength of all lights: lumens, candela, nits or watts.");
   return changed;
 }
 

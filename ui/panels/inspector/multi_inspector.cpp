@@ -195,7 +195,7 @@ void multiInspector(PanelContext ui, InspectorState& state) {
   ui.prefix = "inspector/";
   state.node = kNoNode;  // forces a refresh for the next node
   note(std::to_string(ui.session.document().selection.size()) +
-       " objects are selected. What is set here is set for all of them.");
+       " objects are selected. Values set here apply to all of them.");
   ImGui::PushID("many");
   if (section(ui, "Objects")) objectFields(ui);
   const std::vector<LightSource> lights = selectedLights(ui.session.document());

@@ -20,8 +20,8 @@ void polarPlot(const PanelContext& ui, const IesProfile& profile) {
   ImGui::Dummy({side, side});
   ui.name("profile/plot");
   tooltip(ui,
-          "Intensity over the angle from the aim, down here. Bright: the plane of the light's X; "
-          "dim: that of its Y.");
+          "Intensity over the angle from the axis of the light, which points down here. Bright "
+          "curve: the plane of the X axis of the light; dim curve: of its Y axis.");
   const vec2 centre(corner.x + 0.5f * side, corner.y + 0.5f * side);
   const float radius = 0.48f * side;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -74,7 +74,7 @@ void profileFields(const PanelContext& ui, const Node& node, Requests& requests)
   const vec3 aim = mat3(world) * vec3(0, 0, -1);
   const float length = glm::length(aim);
   if (length > 0.0f)
-    note("Tilted as it is the lamp gives " +
+    note("With its present tilt the lamp gives " +
          short3(100.0 * static_cast<double>(profile->atTilt(aim / length))) + "% of its light.");
 }
 

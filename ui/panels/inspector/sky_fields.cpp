@@ -38,7 +38,7 @@ void kindField(const PanelContext& ui, const Sky& sky, Requests& requests) {
   const int current =
       sky.isBlack() && sky.kind == SkyKind::constant ? 0 : static_cast<int>(sky.kind) + 1;
   labelledRow(ui, "Kind",
-              "The environment, which lights the scene from all directions. It takes a part of the "
+              "The environment, which lights the scene from all directions. It uses a part of the "
               "light samples.");
   const int chosen = combo(ui, "kind", kKinds[current].label, kKinds, current);
   if (chosen == current) return;
@@ -98,13 +98,14 @@ void skyFields(PanelContext ui, InspectorState& state, Requests& requests) {
   switch (sky.kind) {
     case SkyKind::constant:
       if (!sky.isBlack())
-        changed =
-            radianceFields(ui, "Colour", "constant", "The same from everywhere.", sky.radiance);
+        changed = radianceFields(ui, "Colour", "constant", "The same radiance from all directions.",
+                                 sky.radiance);
       break;
     case SkyKind::gradient:
       changed = radianceFields(ui, "Zenith", "zenith", "Straight above.", sky.zenith);
       changed |= radianceFields(ui, "Horizon", "horizon", "At the horizon.", sky.horizon);
-      changed |= radianceFields(ui, "Ground", "ground", "Everywhere below it.", sky.ground);
+      changed |=
+          radianceFields(ui, "Ground", "ground", "Everywhere below the horizon.", sky.ground);
       break;
     case SkyKind::image:
       changed = pictureFields(ui, sky, requests);
@@ -113,7 +114,7 @@ void skyFields(PanelContext ui, InspectorState& state, Requests& requests) {
   if (changed) ui.session.setSky(sky);
   if (!sky.isBlack()) linkFields(ui, kNoNode, state);
   if (ui.session.document().scene.skyIsDefault)
-    note("There because the level has no light. It is not saved until it is changed.");
+    note("A default sky, because the level has no light. It is not saved until it is changed.");
 }
 
 }  // namespace lamplighter

@@ -24,14 +24,15 @@ struct ColumnInfo {
 constexpr std::array kColumns = {
     ColumnInfo{LightColumn::name, "name", "Name", 108, false, ""},
     ColumnInfo{LightColumn::kind, "kind", "Kind", 66, false, ""},
-    ColumnInfo{LightColumn::on, "on", "On", 20, false, "Whether it is switched on."},
+    ColumnInfo{LightColumn::on, "on", "On", 20, false, "Whether the light is switched on."},
     ColumnInfo{LightColumn::solo, "solo", "Solo", 30, false,
                "While any light is solo, only lights that are solo emit."},
     ColumnInfo{LightColumn::colour, "colour", "Colour", 46, false, ""},
     ColumnInfo{LightColumn::temperature, "temperature", "Temp.", 56, true,
-               "The black body of nearest colour."},
-    ColumnInfo{LightColumn::strength, "strength", "Intensity", 66, true,
-               "In the unit chosen above, or the light's own where it has no such unit."},
+               "Temperature of the black body with the nearest colour."},
+    ColumnInfo{
+        LightColumn::strength, "strength", "Intensity", 66, true,
+        "In the unit chosen above, or in another unit if that is not defined for the light."},
     ColumnInfo{LightColumn::size, "size", "Size", 78, true, "In metres, before the scale."},
     ColumnInfo{LightColumn::group, "group", "Group", 60, false, ""},
     ColumnInfo{LightColumn::share, "share", "Share", 40, true,
@@ -41,12 +42,12 @@ constexpr std::array kColumns = {
     ColumnInfo{LightColumn::patches, "patches", "Patches", 52, true,
                "Patches of surface that at least one of its samples may reach."},
     ColumnInfo{LightColumn::milliseconds, "milliseconds", "ms", 44, true,
-               "Its part, by its samples and the patches they reach, of the time that a frame "
-               "takes for light while the picture changes."},
+               "Estimated share of this light in the time of a frame while the picture changes, by "
+               "its samples and the patches that they reach."},
     ColumnInfo{LightColumn::pending, "pending", "Pending", 52, true,
-               "Samples that wait for their map to be brought up to date."},
+               "Samples that wait for an update of their shadow map."},
     ColumnInfo{LightColumn::age, "age", "Age", 28, true,
-               "Frames that the oldest of them has waited."},
+               "Number of frames for which the oldest of them has waited."},
 };
 
 constexpr float kLeastTableHeight = 84.0f;  // design pixels
@@ -110,7 +111,7 @@ class Table {
     ImGui::PopStyleColor();
     ui_.name(std::string("header/") + c.name);
     const std::string help = c.help;
-    tooltip(ui_, help + (help.empty() ? "" : " ") + "A click sorts by it.");
+    tooltip(ui_, help + (help.empty() ? "" : " ") + "Click to sort by this column.");
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const float width = ImGui::CalcTextSize(c.label).x;
     const float x = c.isNumber && width < room ? left + room - width : left;
@@ -192,7 +193,7 @@ class Table {
       ImGui::SetCursorPos(at);
       cells_.field(r, LightColumn::name);
     }
-    if (!r.visible) tooltip(ui_, "It is hidden: the eye in the outliner shows it.");
+    if (!r.visible) tooltip(ui_, "The light is hidden. The eye in the outliner shows it again.");
   }
 
   template <typename Change>

@@ -89,7 +89,7 @@ TEST(LampImportance, WithFewSamplesLampsOfTheViewAreServed) {
   };
   EXPECT_EQ(few.samples()[rooms.seen()], 2);
   EXPECT_LE(few.set.vpls.size(), 4u);
-  // It does not stand for lamps that the view does not see.
+  // It does not represent lamps that the view does not see.
   EXPECT_NEAR(brightness(few), brightness(all), 0.01f * brightness(all));
 }
 
