@@ -1,4 +1,4 @@
-// Bakes light probes of a scene to files, for what moves in an engine.
+// Bakes light probes of a scene to files, for moving objects in an engine.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct ProbeJobOptions {
 };
 
 struct ProbeReport {
-  std::array<size_t, kProbeStates> counts{};  // of probes by state
+  std::array<size_t, kProbeStates> counts{};  // number of probes by state
   float spacing = 0.0f;                       // [m]
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;
@@ -30,9 +30,9 @@ struct ProbeReport {
 // The names of the files that bakeProbes() writes into its folder.
 std::vector<std::string> probeFileNames(const std::string& name);
 
-// Writes NAME_probes.json and NAME_probes.exr (renderer/probes/probe_file.h), both or neither. None
-// if `progress` returned false; it is told of probes. Deterministic. Throws InputError, also if the
-// scene has no surface.
+// Writes NAME_probes.json and NAME_probes.exr (renderer/probes/probe_file.h), both or neither.
+// Returns none if `progress` returned false; it receives the number of probes. Deterministic.
+// Throws InputError, also if the scene has no surface.
 std::optional<ProbeReport> bakeProbes(const Scene& scene, const ProbeJobOptions& options,
                                       const BakeProgress& progress);
 

@@ -17,20 +17,20 @@ struct VertexColourOptions {
   // Colours are irradiance / π times 2^exposure; those above 1 become 1. None: the brightest is 1.
   std::optional<float> exposure;
   std::filesystem::path output;  // folder; created if it does not exist
-  std::string name;              // of the files, without extension
+  std::string name;              // name of the files, without extension
 };
 
 struct LitScene {
   Scene scene;
-  float scale = 1.0f;  // of the colours
-  size_t meshes = 0;   // with their own light
+  float scale = 1.0f;  // factor of the colours
+  size_t meshes = 0;   // number of meshes with their own light
   size_t trianglesBefore = 0, triangles = 0;
   size_t clipped = 0;  // vertices with a colour above 1
 };
 
 // A copy whose meshes have the light in their vertex colours; nodes that are lit differently have
-// meshes of their own. None if `progress` returned false; it is told of nodes. Deterministic.
-// Throws InputError if there is nothing to light.
+// meshes of their own. Returns none if `progress` returned false; it receives the number of nodes.
+// Deterministic. Throws InputError if there is nothing to light.
 std::optional<LitScene> withVertexColours(const Scene& scene, const VertexColourOptions& options,
                                           const BakeProgress& progress);
 

@@ -1,5 +1,5 @@
-// All memory limits of a method as one: its budgets in MiB. A user sets their sum, and each keeps
-// its part of it.
+// All memory limits of a method as one value: the sum of its budgets in MiB. A user sets the sum,
+// and each limit keeps its proportion.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ MemoryRange memoryRange(const MethodInfo& method);
 // The settings with limits whose sum is about `total` MiB, in the proportions of their defaults.
 Settings withMemoryLimit(const MethodInfo& method, Settings settings, int total);
 
-// What the method keeps in memory within these limits, by the statistics of the last frame [bytes].
+// Memory that the method uses under these limits, from the statistics of the last frame [bytes].
 uint64_t memoryUsed(const MethodInfo& method, const GiStats& now);
 
 }  // namespace lamplighter

@@ -27,8 +27,8 @@ struct ReplayOptions {
   bool updateBaselines = false;
   bool frameClock = false;  // times count frames; costs of frames are not measured
   std::string method;       // "": the method of the recording
-  // Other values of parameters than those recorded: "name=value". Baselines are compared all the
-  // same: for a value that is the default on the first backend only.
+  // Values of parameters that replace the recorded ones: "name=value". Baselines are still
+  // compared: for a value that is the default only on the first backend.
   std::vector<std::string> assignments;
   std::string backend = "auto";
   int threads = 0;  // 0: all cores

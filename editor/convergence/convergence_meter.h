@@ -12,8 +12,8 @@
 
 namespace lamplighter {
 
-// The picture over the time since an edit. All times are in seconds from the edit to the end of a
-// frame, without the time of comparisons.
+// The error of the picture over the time since an edit. All times are in seconds from the edit to
+// the end of a frame, without the time of comparisons.
 struct Convergence {
   struct Sample {
     double seconds = 0.0;
@@ -25,9 +25,10 @@ struct Convergence {
   std::vector<Sample> curve;                   // of every frame; empty: nothing was compared
   std::map<std::string, double> stageSeconds;  // of all frames, by stage
 
-  // When the error fell permanently below `limit`. None: it did not.
+  // The time at which the error fell permanently below `limit`. None: it did not.
   std::optional<double> secondsToStayBelow(double limit) const;
-  // The first and the last sample, and of those between at most one for each `factor` of time.
+  // The first and the last sample, and at most one of the samples between for each `factor` of
+  // time.
   std::vector<Sample> thinnedCurve(double factor) const;
 };
 

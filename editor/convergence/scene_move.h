@@ -1,5 +1,5 @@
-// An edit that takes over from another state of a level where its objects are and how its lights
-// shine.
+// An edit that copies the transforms of objects and the settings of lights from another state of a
+// level.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace lamplighter {
 // Nodes and materials of both scenes correspond if they have the same name; of several with one
 // name, the first corresponds to the first, and so on.
 struct SceneMove {
-  size_t common = 0;                        // nodes of the scene that have a counterpart
-  std::vector<Node> nodes;                  // with another transform or other values of their light
-  std::vector<std::pair<int, vec3>> glows;  // materials with another emission [W/(m² sr)]
-  std::optional<Sky> sky;                   // if it is another
+  size_t common = 0;        // nodes of the scene that have a counterpart
+  std::vector<Node> nodes;  // nodes with a changed transform or changed light values
+  std::vector<std::pair<int, vec3>> glows;  // materials with a changed emission [W/(m² sr)]
+  std::optional<Sky> sky;                   // the new sky, if it changed
 
   bool none() const { return nodes.empty() && glows.empty() && !sky; }
 };

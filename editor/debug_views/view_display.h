@@ -56,7 +56,7 @@ class ViewDisplay {
   // Text for the status line: the view, the reason if it shows nothing, and the chosen light sample
   // if the view shows one. "": no text.
   std::string viewText() const;
-  // `unit`: of the inspection [m].
+  // `unit`: unit of the inspection [m].
   std::string vplText(const Scene& scene, const Inspection& inspection, float unit) const;
 
  private:

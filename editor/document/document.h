@@ -1,5 +1,5 @@
-// What is being edited: scene, selection, settings, and the file it came from. It is changed through
-// editor/edits only.
+// The edited document: scene, selection, settings, and the file that it was loaded from. Only
+// editor/edits changes it.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace lamplighter {
 
-// How the picture is made; part of the document so that undo covers it, but no reason to save.
+// Settings of the renderer: part of the document, so that they can be undone, but their changes
+// need not be saved.
 struct RenderSettings {
   std::string method = "many_lights";
   Settings values;
@@ -28,15 +29,15 @@ struct Document {
   std::filesystem::path path;     // empty: never saved
 
   bool isSelected(NodeId id) const;
-  // For those who ask of many.
+  // For callers that check many nodes.
   std::unordered_set<NodeId> selected() const { return {selection.begin(), selection.end()}; }
   NodeId active() const { return selection.empty() ? kNoNode : selection.back(); }
 };
 
 // A hash of everything in the document that a user can change (scene and render settings, not the
-// selection), equal on every machine: what recordings' checkpoints compare.
+// selection), equal on every machine; checkpoints of recordings compare it.
 uint64_t documentHash(const Document& document);
-// The scene's part of it: what a file would hold.
+// The part of the scene in this hash: the content of a saved file.
 uint64_t sceneHash(const Scene& scene);
 
 }  // namespace lamplighter

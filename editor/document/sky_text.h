@@ -1,4 +1,4 @@
-// A sky as one word: for the command line and for actions.
+// A sky as one word of text, for the command line and for actions.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace lamplighter {
 inline constexpr const char* kSkyUsage = "none|R,G,B|gradient:ZENITH/HORIZON/GROUND|FILE";
 
 // "none", "R,G,B" (or one number for all three) in W/(m² sr), "gradient:R,G,B/R,G,B/R,G,B" (zenith,
-// horizon, ground), or the name of a picture; one that is not there is looked for in `folder`.
+// horizon, ground), or the name of a picture; if it does not exist, it is searched in `folder`.
 // Throws InputError.
 Sky parseSky(const std::string& text, const std::filesystem::path& folder = {});
 

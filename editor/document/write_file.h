@@ -1,4 +1,4 @@
-// Writing a file as a whole or not at all.
+// Writes a file completely or not at all.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace lamplighter {
 
-// Through a temporary file beside it that is renamed at the end. Throws InputError, with what was
-// there as it was.
+// Uses a temporary file in the same folder that is renamed at the end. Throws InputError; the old
+// file is then unchanged.
 void writeFile(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace lamplighter

@@ -11,7 +11,7 @@
 namespace lamplighter {
 
 struct ClipboardFragment {
-  std::vector<Node> nodes;  // parents before children; those on top keep the id of their parent
+  std::vector<Node> nodes;  // parents before children; topmost nodes keep the id of their parent
   // World transforms of the topmost nodes, for levels without their parents.
   std::map<NodeId, Transform> places;
   // By their indices in the original scene.
@@ -22,10 +22,10 @@ struct ClipboardFragment {
   bool empty() const { return nodes.empty(); }
 };
 
-// The nodes with all that are below them.
+// The nodes with all their descendants.
 ClipboardFragment clip(const Scene& scene, const std::vector<NodeId>& ids);
 
-// What a paste adds: nodes with new ids, and the assets that the scene does not have yet.
+// The content that a paste adds: nodes with new ids, and assets that the scene does not have yet.
 struct PastedNodes {
   std::vector<Node> nodes;
   std::vector<NodeId> roots;
@@ -33,8 +33,8 @@ struct PastedNodes {
   std::vector<Material> materials;
   std::vector<Texture> textures;
 };
-// In the level that the nodes come from they keep their parents. In another level they keep their
-// place in the world.
+// In the level of the original nodes they keep their parents. In another level they keep their
+// world transform.
 PastedNodes pasteInto(Editing& editing, const ClipboardFragment& fragment, bool isSameLevel);
 void add(Transaction& edit, PastedNodes pasted);
 

@@ -25,7 +25,7 @@ using ItemChanges = std::map<size_t, Change<T>>;
 
 // A change is recorded in two stages. First, record…() keeps the current value of each part that is
 // about to be edited, once. Then complete() adds the values after, and drops the parts that are
-// equal again. So it costs what was touched, however long the edit takes.
+// equal again. So its cost depends on the number of edited parts, not on the duration of the edit.
 struct DocumentChange {
   std::map<NodeId, Change<Node>> nodes;  // a new or removed node has one value only
   Change<std::vector<NodeId>> order;     // of Scene::nodes, if nodes were added, removed or moved

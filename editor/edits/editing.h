@@ -22,11 +22,11 @@ class Editing {
   // step, but can still be rolled back on its own. With an empty label, the step gets the label of
   // the first edit inside.
   Transaction begin(std::string label);
-  // Starts an edit that goes on over several frames without an owner, as in a field of a panel:
-  // until commit() or cancel(). Commits what is open.
+  // Starts an edit that lasts over several frames without an owner, as in a field of a panel, until
+  // commit() or cancel(). Commits an open edit.
   void hold(std::string label);
   bool inTransaction() const { return !open_.empty(); }
-  void commit();  // all that is open, as one step
+  void commit();  // commits all open edits as one step
   void cancel();
 
   bool canUndo() const;
@@ -34,7 +34,7 @@ class Editing {
   // These commit an open transaction first.
   void undo();
   void redo();
-  // Undoes or redoes until `step` is the newest that is done. Throws InputError if it is not
+  // Undoes or redoes until `step` is the newest applied step. Throws InputError if it is not
   // between first() and last() of the history.
   void goTo(size_t step);
   void setBudget(size_t bytes) { history_.setBudget(bytes); }  // of the history
@@ -42,19 +42,19 @@ class Editing {
   // Replaces the document and clears the history.
   void open(Document document);
   void setPath(std::filesystem::path path) { document_.path = std::move(path); }
-  // Render settings to start with: not a step that can be undone.
+  // Sets the initial render settings; not a step that can be undone.
   void setInitialRender(RenderSettings render);
-  // Selects the nodes that exist; the last one is active. Not a change of the work.
+  // Selects the nodes that exist; the last one is active. This does not count as a modification.
   void select(std::vector<NodeId> ids);
-  // Never used before in this document, not even by nodes that are gone.
+  // An id that was never used before in this document, not even by removed nodes.
   NodeId newNodeId() { return document_.scene.nextId++; }
 
-  // Called after every step that was done, undone or redone, with what changed since the last call.
-  // If it returns false, the next call includes this change.
+  // Called after every step that was applied, undone or redone, with the changes since the last
+  // call. If it returns false, the next call includes this change.
   using Listener = std::function<bool(const DocumentChange& change, const std::string& label)>;
   void setListener(Listener listener);
 
-  // What changed since the last call.
+  // Changes since the last call.
   SceneChanges takeChanges();
 
  private:
@@ -73,13 +73,13 @@ class Editing {
   }
   void put(const DocumentChange& change, void (DocumentChange::*side)(Document&) const);
   bool isOpen(uint64_t id) const;
-  void commit(uint64_t id);  // with all that were started in it
+  void commit(uint64_t id);  // with all edits that were started in it
   void cancel(uint64_t id);
   void tell(const std::string& label);
 
   Document document_;
   History history_;
-  std::vector<Open> open_;  // each one within the one before
+  std::vector<Open> open_;  // each one is nested in the previous one
   uint64_t lastId_ = 0;
   DocumentChange untold_;   // since the listener was called
   DocumentChange unshown_;  // since takeChanges()

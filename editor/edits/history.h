@@ -14,18 +14,18 @@ class History {
   std::string undoLabel() const { return done_ > 0 ? steps_[done_ - 1].label : ""; }
   std::string redoLabel() const { return done_ < steps_.size() ? steps_[done_].label : ""; }
 
-  // Steps are numbered from 1 in the order they were made, including forgotten ones.
-  size_t position() const { return forgotten_ + done_; }  // the newest step that is done; 0: none
-  size_t first() const { return forgotten_; }             // undo reaches back to here
+  // Steps are numbered from 1 in the order they were made, including deleted ones.
+  size_t position() const { return forgotten_ + done_; }  // the newest applied step; 0: none
+  size_t first() const { return forgotten_; }             // the oldest position that undo can reach
   size_t last() const { return forgotten_ + steps_.size(); }
   const std::string& label(size_t step) const { return steps_.at(step - forgotten_ - 1).label; }
 
   size_t budget() const { return budget_; }  // bytes
   size_t bytes() const { return bytes_; }    // in use
 
-  // Forgets the oldest steps beyond the budget, but never the newest.
+  // Deletes the oldest steps beyond the budget, but never the newest.
   void setBudget(size_t bytes);
-  // Adds a step that has been done. Forgets the steps that were undone.
+  // Adds an applied step. Deletes the undone steps.
   void push(std::string label, DocumentChange change);
   // The step to undo or redo; the position moves past it.
   const DocumentChange& stepBack() { return steps_[--done_].change; }

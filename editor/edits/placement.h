@@ -12,9 +12,9 @@ struct SurfacePoint {
   vec3 normal{0.0f, 1.0f, 0.0f};  // unit, towards the viewer
 };
 
-// Distance of the node's origin from a surface with unit normal n [m], such that the node and all
-// below it just touch the surface: meshes with their lowest point, lights with a gap of 0.01 units
-// of `unit` metres.
+// Distance of the node's origin from a surface with unit normal n [m], such that the node and its
+// descendants just touch the surface: meshes with their lowest point, lights with a gap of 0.01
+// units of `unit` metres.
 float standOff(const Scene& scene, NodeId id, const vec3& n, float unit);
 
 // The node's local transform on the surface: objects keep their rotation, lights face away from the
@@ -22,10 +22,11 @@ float standOff(const Scene& scene, NodeId id, const vec3& n, float unit);
 std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at,
                                   float unit);
 
-// The least rotation that takes one unit direction to another.
+// The smallest rotation that maps one unit direction to another.
 quat leastTurn(const vec3& from, const vec3& to);
 
-// A parent that squeezes space flat has no inverse: nothing below it can be put at a place.
+// Whether the parent's transform has an inverse. If not (a scale of 0), no descendant can be placed
+// at a given position.
 bool hasVolume(const mat4& m);
 
 }  // namespace lamplighter

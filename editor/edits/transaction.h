@@ -1,5 +1,5 @@
 // An edit in progress: the only access to a mutable document. If it is not committed, its
-// destructor puts back what was there before, also when an exception passes.
+// destructor restores the previous state, also after an exception.
 #pragma once
 
 #include <cstdint>
@@ -35,16 +35,16 @@ class Transaction {
   void setNodes(std::vector<Node> nodes);
   // Adds nodes at the end, parents before children, with ids of Editing::newNodeId().
   void addNodes(std::vector<Node> nodes);
-  // Removes nodes and all that are below them.
+  // Removes nodes and all their descendants.
   void removeNodes(const std::vector<NodeId>& ids);
-  // Moves nodes and all that are below them to the end of the list.
+  // Moves nodes and all their descendants to the end of the list.
   void moveToEnd(const std::vector<NodeId>& ids);
-  // Assets, at the ends of their lists.
+  // Adds assets at the ends of their lists.
   void add(std::shared_ptr<const Mesh> mesh);
   void add(Material material);
   void add(Texture texture);
 
-  // False if it was committed or cancelled, or if something else ended it: an undo, for example.
+  // False if it was committed or cancelled, or ended in another way, for example by an undo.
   bool isOpen() const;
   void commit();  // if it is open; if that throws, it can still be cancelled
   void cancel();  // if it is open: undoes its changes
@@ -53,10 +53,10 @@ class Transaction {
   friend class Editing;
   Transaction(Editing& editing, uint64_t id) : editing_(&editing), id_(id) {}
   Document& document();
-  // Records the current value, if it was not, and returns it to be edited.
+  // Records the current value, if it is not recorded yet, and returns it for editing.
   template <typename T>
   T& recorded(Change<T> DocumentChange::*part, T& value);
-  // The same for an item of a list. The index behind the last adds one.
+  // The same for an item of a list. The index after the last one adds an item.
   template <typename T>
   T& recorded(ItemChanges<T> DocumentChange::*part, std::vector<T>& list, size_t index);
 

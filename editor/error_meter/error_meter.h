@@ -1,6 +1,6 @@
-// Measures the error of the live picture during editing: it says which reference is needed, takes
-// the reference, and estimates the error of the picture. It does not trace paths itself: a worker
-// of the ui does that in parallel with the frames, or measure() does it at once.
+// Measures the error of the live picture during editing: it requests the reference, receives it,
+// and estimates the error of the picture. It does not trace paths itself: a worker of the ui does
+// that in parallel with the frames, or measure() does it at once.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ class ErrorMeter {
 
   // What a worker should trace now. Null: nothing.
   std::shared_ptr<const MeterSubject> wanted() const { return on_ ? subject_ : nullptr; }
-  // Receives the result of a worker. A result for another subject is too late and is dropped.
+  // Receives the result of a worker. A result for another subject is outdated and is discarded.
   void take(std::shared_ptr<const ReferenceHalves> halves);
   // After the next frame, traces this number of paths per block and compares at once.
   void measureAtOnce(int samples) { toMeasure_ = samples; }
@@ -58,7 +58,7 @@ class ErrorMeter {
   std::shared_ptr<RadianceImage> compared_;  // the picture of the estimate
   bool comparedSettled_ = false;             // whether that picture was settled
   int framesSince_ = 0;                      // frames since the last comparison
-  bool isNews_ = false;                      // halves that were not compared yet
+  bool isNews_ = false;                      // there are halves that were not compared yet
   std::optional<ErrorEstimate> estimate_;
 };
 

@@ -28,7 +28,8 @@ class Explainer {
   void choose(int row);
   // The surface to which lines are drawn instead; senders().all if it is all of them. Null: none.
   const LightSender* chosenSender() const;
-  // Chooses a surface by its row, or all of them. Both throw InputError if there is none.
+  // Chooses a surface by its row, or all of them. Both throw InputError if there is no such
+  // surface.
   void chooseSender(int row);
   void chooseAllSenders();
   // The object of a row of senders(). Throws InputError if the row is out of range, or represents
@@ -38,8 +39,8 @@ class Explainer {
   NodeId blocker(int row, int index) const;
 
   // Draws a mark at the point and lines to the samples of the chosen light, or to the places of the
-  // chosen surface: the more light they bring, the stronger. The line of a blocked sample ends at
-  // the occluder. The view is in metres.
+  // chosen surface: stronger lines for more light. The line of a blocked sample ends at the
+  // occluder. The view is in metres.
   void draw(Overlay& overlay, const View& metres, const RenderScene& world, const RayCaster& rays,
             const LightSamples& samples) const;
 
@@ -53,7 +54,7 @@ class Explainer {
   LightSenders senders_;
   std::optional<NodeId> chosen_;
   std::optional<SenderKey> chosenSender_;
-  bool hasChosenAll_ = false;  // of the senders
+  bool hasChosenAll_ = false;  // all senders are chosen
 };
 
 }  // namespace lamplighter

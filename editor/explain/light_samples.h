@@ -20,8 +20,8 @@ struct LightSamples {
 };
 
 // The samples of the method, so that the explanation fits its picture. For a method without
-// samples, such as the reference, it creates many samples with the method's number of bounces;
-// where surfaces carry bounced light or that of the sky, it adds those.
+// samples, such as the reference, it creates many samples with the method's number of bounces. If
+// surfaces store bounced light or sky light, it adds samples for these.
 LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene,
                           const RayCaster& rays, const Settings& settings);
 

@@ -10,7 +10,7 @@
 
 namespace lamplighter {
 
-// A surface: what one material covers of an object.
+// A surface: the part of an object with one material.
 struct SenderKey {
   NodeId node = kNoNode;  // kNoNode: all surfaces that have no row of their own
   int material = 0;       // index into RenderScene::materials
@@ -22,12 +22,12 @@ struct LightSender {
   struct Place {
     vec3 position{0.0f};  // world space [unit of the scene]
     float size = 0.0f;    // side of a square with its area [unit of the scene]
-    vec3 light{0.0f};     // irradiance that it gives the point [W/m²]
+    vec3 light{0.0f};     // irradiance of the point by it [W/m²]
     float irradiance() const { return luminance(light); }  // [lx]
   };
   SenderKey key;
   std::string name, material;
-  float irradiance = 0.0f;  // that it gives the point [lx]
+  float irradiance = 0.0f;  // irradiance of the point by it [lx]
   vec3 colour{0.0f};        // of this light; the largest component is 1
   // Strongest first, up to kMostPlaces. Together they give all of the light: each represents others
   // near it.
@@ -36,14 +36,14 @@ struct LightSender {
 };
 
 struct LightSenders {
-  std::string problem, remedy;             // why they are not known, and what helps; "": they are
-  float irradiance = 0.0f;                 // by bounced light [lx]
-  std::vector<LightSender> rows;           // strongest first; the last one may represent all others
-  LightSender all;                         // of all surfaces together
-  static constexpr size_t kMostRows = 12;  // besides that of all others
+  std::string problem, remedy;    // why they are unknown, and the remedy; "": they are known
+  float irradiance = 0.0f;        // by bounced light [lx]
+  std::vector<LightSender> rows;  // strongest first; the last one may represent all others
+  LightSender all;                // of all surfaces together
+  static constexpr size_t kMostRows = 12;      // without the row for all others
   static constexpr float kLeastShare = 1e-3f;  // weaker surfaces have no row
 
-  // Of the bounced light, from 0 to 1.
+  // Share of the bounced light, from 0 to 1.
   float shareOf(const LightSender& sender) const {
     return irradiance > 0.0f ? sender.irradiance / irradiance : 0.0f;
   }

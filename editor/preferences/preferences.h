@@ -14,7 +14,7 @@
 namespace lamplighter {
 
 struct UserSettings {
-  float uiScale = 1.0f;  // relative to what the screen asks for
+  float uiScale = 1.0f;  // relative to the scale of the screen
   bool toasts = true;
   float toastSeconds = 4.0f;
   int thumbnailSize = 84;  // [pixels]

@@ -1,5 +1,5 @@
 // Presets of quality for all methods: draft for fast feedback, work for editing, final for results.
-// They leave bounces, frame time and exposure as they are.
+// They do not change bounces, frame time and exposure.
 #pragma once
 
 #include <string>

@@ -15,28 +15,28 @@ namespace lamplighter {
 // Everything is in the unit of the scene.
 class LiveProbes {
  public:
-  static constexpr uint32_t kSamples = 256;  // paths that a settled probe has
-  static constexpr uint32_t kSlice = 16;     // paths that a probe gets at once
+  static constexpr uint32_t kSamples = 256;  // number of paths of a settled probe
+  static constexpr uint32_t kSlice = 16;     // number of paths per slice
   static constexpr int kMostNodes = 4096;    // of the grid
 
   bool on() const { return on_; }
   void setOn(bool on);
-  // The spacing is larger where the grid would have more than kMostNodes.
+  // The spacing is larger if the grid would have more than kMostNodes nodes.
   const ProbeGridOptions& options() const { return options_; }
   void setOptions(const ProbeGridOptions& options);
   void forget();  // when another level is opened
 
-  // Call after each frame with what changed in the scene since the last call. Off: does nothing.
-  // The work is that of the given number of slices; their results depend on the scene alone.
+  // Call after each frame with the changes of the scene since the last call. Off: does nothing. The
+  // work is the given number of slices; the results depend only on the scene.
   void update(const RenderScene& scene, const RayCaster& rays, const SceneChanges& changes);
-  // The time that the last update took [s]. The next ones do what fits into a few milliseconds.
-  // Without it, each does the same.
+  // Tells the time of the last update [s], so that the next ones fit into a few milliseconds.
+  // Without this call all updates do the same amount of work.
   void took(double seconds);
 
-  // Whether another frame would change nothing.
+  // Whether another frame would not change anything.
   bool settled() const { return !on_ || finished_ == grid_.probes.size(); }
   const ProbeGrid& grid() const { return grid_; }
-  // By probe; 0 where none is known yet.
+  // Light by probe; 0 where it is not known yet.
   const std::vector<ProbeSh>& light() const { return light_; }
   bool hasLight(size_t probe) const { return nodes_[probe].isKnown; }
   // For the status line: "probes 178 of 180, 43%". "": off. `unit`: of the scene [m].
@@ -61,9 +61,10 @@ class LiveProbes {
   std::vector<Node> nodes_;
   std::vector<ProbeSh> light_;
   uint64_t surfaces_ = 0, lights_ = 0;  // revisions of the scene
-  size_t next_ = 0;                     // in the order of visits
-  size_t finished_ = 0, samples_ = 0;   // nodes; of the present light, of all nodes
-  size_t visits_ = 0;                   // of the next update; 0: the first one
+  size_t next_ = 0;                     // next probe in the order of visits
+  size_t finished_ = 0,
+         samples_ = 0;  // finished nodes; samples of the current light
+  size_t visits_ = 0;   // visits of the next update; 0: the first one
   std::optional<ProbeReference> reference_;
   const RenderScene* scene_ = nullptr;  // of reference_
   const RayCaster* rays_ = nullptr;

@@ -1,4 +1,4 @@
-// Draws light probes over the picture: balls with the light that falls on them.
+// Draws light probes over the picture: balls that are lit by the probes.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@
 
 namespace lamplighter {
 
-// How the picture below shows radiance.
+// Exposure and tone mapping of the picture below.
 struct ProbeLook {
   float exposureEv = 0.0f;
   ToneMapper toneMapper = ToneMapper::filmic;
 };
 
-// Of the ball at the pointer [unit of the scene].
+// Radius of the ball at the pointer [unit of the scene].
 float propRadius(const LiveProbes& probes);
 
 // White Lambertian balls, one for each valid probe, with the brightness of the picture, and small
-// red marks for others, which bakes fill in from neighbours. Those behind surfaces are left out.
-// `prop`: the place of a larger ball with the light between probes. The view is in the unit of the
-// scene, as are all places.
+// red marks for invalid probes, which bakes fill in from neighbours. Balls behind surfaces are not
+// drawn. `prop`: the place of a larger ball with the light between probes. The view is in the unit
+// of the scene, as are all places.
 void drawProbes(Overlay& overlay, const View& view, const LiveProbes& probes,
                 const RenderScene& scene, const RayCaster& rays, const ProbeLook& look,
                 const std::optional<vec3>& prop);

@@ -11,9 +11,9 @@ class Session;
 // Applies keys, units and the tone mapper. Appends problems of the keys to `problems`, one line
 // each.
 void applyPreferences(Session& session, std::vector<std::string>& problems);
-// The budgets and qualities that the program starts with, as no step of the history.
+// Sets the initial budgets and quality settings, without a step of the history.
 void applyPreset(Session& session);
-// What was changed elsewhere, such as by lights.unit, goes into the preferences.
+// Copies values that were changed elsewhere, such as by lights.unit, to the preferences.
 void takePreferences(Session& session);
 
 }  // namespace lamplighter

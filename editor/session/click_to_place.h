@@ -1,12 +1,12 @@
-// Click to place: what Session::startPlacing() has named is added and put on a surface.
+// Click to place: adds the object that was passed to Session::startPlacing(), on a surface.
 #pragma once
 
 namespace lamplighter {
 
 class Session;
 
-// On the surface under the pointer, facing out of it, as one step. Nothing happens where there is
-// none. `goesOn`: the next click places another.
+// Places it on the surface under the pointer, facing away from it, as one step. Does nothing if
+// there is no surface. `goesOn`: the next click places another one.
 void placeUnderPointer(Session& session, bool goesOn);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// What follows a frame that could not be rendered: another attempt from scratch, the cpu backend
+// Reaction to a frame that could not be rendered: another attempt from scratch, the cpu backend
 // instead of gl, or waiting until something changes.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace lamplighter {
 
 class FrameFailures {
  public:
-  // What the picture depends on, besides the scene.
+  // The input of the picture in addition to the scene.
   struct Input {
     View view;
     RenderSettings render;
@@ -30,18 +30,18 @@ class FrameFailures {
     return waits_ && isSameScene && input == input_;
   }
 
-  // An InputError comes again with the same input. Other exceptions may come from what was kept
-  // between frames, or be over with less memory in use, so they get a second attempt; after it the
-  // gl backend counts as broken.
+  // An InputError occurs again with the same input. Other exceptions may be caused by data kept
+  // between frames or by lack of memory, so they get a second attempt; if that fails, the gl
+  // backend is considered broken.
   Next failed(const std::exception& e, const Input& input, bool isOnGl);
   void rendered() { *this = {}; }
-  // Something else changed, such as shaders: ends the waiting.
+  // Call when something else changed, such as shaders: ends the waiting.
   void tryAgain() { waits_ = false; }
 
  private:
   std::string why_;
   Input input_;
-  int count_ = 0;  // of exceptions in a row that are no InputErrors
+  int count_ = 0;  // number of consecutive exceptions other than InputError
   bool waits_ = false;
 };
 

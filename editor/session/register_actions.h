@@ -1,4 +1,4 @@
-// All actions, by group; each group's file says what its actions do.
+// Registers all actions, by group; the file of each group defines them.
 #pragma once
 
 #include "editor/keys/action.h"
@@ -32,7 +32,7 @@ inline void addAllActions(ActionRegistry& registry) {
   addEditActions(registry);
   addObjectActions(registry);
   addLightActions(registry);
-  addPlaceActions(registry);  // after light.add, whose kinds it offers
+  addPlaceActions(registry);  // after light.add, because it offers the kinds of light.add
   addLightsActions(registry);
   addLightStateActions(registry);
   addLinkActions(registry);

@@ -1,4 +1,4 @@
-// One more picture of the view, with a renderer of its own, and how long it took.
+// An additional picture of the view, with its own renderer and its time.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace lamplighter {
 
-// What a picture depends on, besides the scene. The exposure is applied when it is shown.
+// The input of a picture in addition to the scene. The exposure is applied when it is shown.
 struct SideInput {
   View view;
   RenderSettings settings;
@@ -22,7 +22,7 @@ struct SideInput {
 // The work on a picture since the last edit or motion of the camera.
 class SideProgress {
  public:
-  // A frame took so long. `isNew`: it was the first after an edit.
+  // Records the duration of a frame. `isNew`: it was the first after an edit.
   void frame(bool isNew, double seconds, bool settled);
   // "settled after 3.21 s, 25 frames"; without a clock there are no seconds.
   std::string text() const;
@@ -51,13 +51,13 @@ class ComparedSide {
 
   // The next frame that is rendered, this one or a later one, receives these changes.
   void note(const SceneChanges& changes, const Frame& frame);
-  // Whether another frame would change nothing.
+  // Whether another frame would not change anything.
   bool isDone(const Frame& frame) const;
-  // Renders a frame; throws what the renderer throws. `make`: creates it on demand.
+  // Renders a frame; throws the exceptions of the renderer. `make`: creates the renderer on demand.
   void render(const Frame& frame, const MakeRenderer& make);
   // Shows a picture that another renderer made, and frees the own renderer.
   void show(std::shared_ptr<RadianceImage> picture, bool settled);
-  // Shows nothing until something changes. `why`: in place of the progress.
+  // Shows nothing until something changes. `why`: text instead of the progress.
   void fail(std::string why, const Frame& frame);
 
   bool settled() const { return settled_; }

@@ -1,4 +1,4 @@
-// How far the pictures of tiles are from one of them.
+// The errors of the pictures of tiles against one of them.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace lamplighter {
 
-// The relRMSE of means of 4 × 4 pixels, which leaves less of the reference's noise.
+// The relRMSE of means of 4 × 4 pixels, which reduces the noise of the reference.
 double tileError(const Image& picture, const Image& base);
 
 class TileErrors {
  public:
   using Picture = std::shared_ptr<RadianceImage>;
-  // Compares the pictures that are new, or all if `base` is. Null: there is none yet. Pictures on a
-  // GPU are left out unless `waits`.
+  // Compares new pictures, or all if `base` is new. Null: there is no picture yet. Pictures on a
+  // GPU are skipped unless `waits`.
   void update(std::span<const Picture> pictures, size_t base, bool waits);
   // tileError(); none: not compared, or the base itself.
   std::optional<double> of(size_t tile) const;

@@ -1,4 +1,4 @@
-// Where the tiles of a view lie: all of one size, in rows, with lines of text under each.
+// The layout of tiles of a view: all of one size, in rows, with lines of text under each.
 #pragma once
 
 #include "editor/tools/viewport_input.h"
@@ -24,7 +24,7 @@ inline constexpr int kTileLines = 3;  // of text under a tile: its name and two 
 // text [px].
 TileLayout layOutTiles(const glm::ivec2& area, int count, float lineHeight);
 
-// Input over any tile as if its picture were the view. A drag stays with the tile where it began.
+// Maps input over any tile to the view. A drag stays with the tile where it began.
 class TilePointer {
  public:
   ViewportInput inTile(const ViewportInput& input, const TileLayout& layout);

@@ -16,8 +16,8 @@ struct Tile {
   std::vector<std::string> figures;  // each one line; cut off at the width of the picture
 };
 
-// In rows of `columns` tiles. Under each picture there is room for the title and for as many lines
-// as the tile with the most has.
+// Draws rows of `columns` tiles. Under each picture there is space for the title and for the
+// largest number of lines of any tile.
 Image8 tileSheet(std::span<const Tile> tiles, int columns, const Font& font);
 
 }  // namespace lamplighter

@@ -16,8 +16,8 @@ class FrameParts {
   void setStrict(bool strict) { strict_ = strict; }
 
   // Runs a part. If it throws, undoes the edit that it was making, ends the ImGui windows that it
-  // began, and sets the status: once, however many frames in a row the part fails with the same
-  // message. `part` is the name for that message. Not for use within a window of ImGui.
+  // began, and sets the status: once for consecutive failures with the same message. `part` is the
+  // name for that message. Not for use within a window of ImGui.
   void run(Session& session, const std::string& part, const std::function<void()>& work);
 
  private:

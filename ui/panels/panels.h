@@ -67,8 +67,8 @@ std::optional<ParameterValue> parameterField(const PanelContext& ui, const Param
                                              const Settings& settings, bool tracks);
 // A row for a parameter of the document, with its cost if it is a budget. Right-click resets it.
 void parameterRow(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec);
-// The method's parameters of a group but those named, under a collapsible header that is closed at
-// first. Draws nothing if none is left.
+// The method's parameters of a group except the named ones, under a collapsible header that is
+// closed at first. Draws nothing if none is left.
 void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group,
                       std::span<const std::string_view> except);
 

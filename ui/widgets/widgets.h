@@ -77,7 +77,7 @@ int combo(const PanelContext& ui, const std::string& widget, const std::string& 
 // The same for choices that are their own labels.
 int combo(const PanelContext& ui, const std::string& widget, const std::string& shown,
           std::span<const std::string> choices);
-// A button that is highlighted while what it switches is on.
+// A button that is highlighted while its option is on.
 bool toggleButton(const std::string& label, bool on, const ImVec2& size = {0, 0});
 
 // "1,234,567"
