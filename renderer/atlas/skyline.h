@@ -19,7 +19,7 @@ class Skyline {
 
  private:
   struct Span {
-    int x, y, width;  // from x on, everything below y is occupied
+    int x, y, width;  // between x and x + width, everything below y is occupied
   };
   int side_;
   std::vector<Span> spans_;  // adjacent, ordered by x

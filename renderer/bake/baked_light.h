@@ -16,24 +16,24 @@
 
 namespace lamplighter {
 
-// `meshes`: bounced light is interpolated between the corners of elements of surface, and direct
-// light is found at the point (DirectLight). `links`: the same direct light, and the last bounce
-// from texels of the surface is gathered at the point (GatheredLight).
+// `meshes`: bounced light is interpolated between the corners of surface elements, and direct light
+// is computed at the point (DirectLight). `links`: the same direct light; the last bounce is
+// gathered at the point from texels of the surface (GatheredLight).
 enum class BakeMethod : uint8_t { settled, reference, meshes, links };
 
 struct BakeLightOptions {
   BakeMethod method = BakeMethod::settled;
-  VplCounts counts;              // settled; meshes, links: the total, of direct light, and the seed
+  VplCounts counts;  // settled; meshes, links: only the total of direct light, and the seed
   float clampDistance = 0.5f;    // settled: bound on 1/d² of a VPL [m]
   PathTracerOptions paths;       // reference
   int samples = 64;              // reference: paths per texel
-  SurfaceLightOptions surface;   // meshes; links: the mask of flat lights alone
+  SurfaceLightOptions surface;   // meshes; links: only the mask of flat lights
   TexelRadiosityOptions texels;  // links
 };
 
 class BakedLight {
  public:
-  // Refers to scene and rays.
+  // Keeps references to scene and rays.
   BakedLight(const RenderScene& scene, const RayCaster& rays, const BakeLightOptions& options);
   BakedLight(const BakedLight&) = delete;
   BakedLight& operator=(const BakedLight&) = delete;
@@ -44,7 +44,8 @@ class BakedLight {
   // on the arguments.
   vec3 irradiance(std::span<const BakePoint> points, uint32_t texel) const;
 
-  // Side of the texels from which light is gathered, as memory allows [m]; 0: of another method.
+  // Side of the texels from which light is gathered, within the memory limit [m]; 0 with other
+  // methods.
   float texelSide() const { return gathered_ ? gathered_->side() : 0.0f; }
 
  private:

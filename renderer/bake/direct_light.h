@@ -1,4 +1,4 @@
-// Light at a surface point that comes straight from the lights, with exact shadows.
+// Direct light at a surface point, with exact shadows.
 #pragma once
 
 #include <optional>
@@ -13,27 +13,27 @@
 
 namespace lamplighter {
 
-// Irradiance by light samples [W/m²]: of all of them, and of those that the place sees.
+// Irradiance by light samples [W/m²]: by all of them, and by those visible from the place.
 struct SampledLight {
   vec3 all{0.0f}, visible{0.0f};
 };
-// One ray for each sample. `clampDistance`: bound on 1/d² [m]; none: of a disk with the area that
-// the sample represents.
+// One ray for each sample. `clampDistance`: bound on 1/d² [m]; none: the form factor of a disk with
+// the area that the sample represents.
 SampledLight sampledLight(const RayCaster& rays, std::span<const SceneVpl> samples,
                           const ReceivingPlace& at, std::optional<float> clampDistance);
 
 // A punctual light needs one ray. An untextured surface of few triangles has its form factor in
 // closed form, multiplied by the visible share: by a mask of the flat light, or by light samples;
-// where it fills much of what the place sees, by rays from there. Other lights are the sum of their
-// samples.
+// by rays from the place if the light covers much of its hemisphere. Other lights are the sum of
+// their samples.
 class DirectLight {
  public:
   struct Options {
     int samples = 300;  // of all lights together
-    int mask = 0;       // places along a side of a flat light; 0: light samples
+    int mask = 0;       // side of the bit mask of a flat light; 0: light samples
     uint32_t seed = 1;
   };
-  // Refers to the arguments.
+  // Keeps references to the arguments.
   DirectLight(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
               const Options& options);
 

@@ -1,6 +1,6 @@
 // A mesh whose triangles are divided at the midpoints of edges. Whether an edge is divided depends
-// on its two ends in space, so all triangles at it, also those of other primitives, divide it
-// alike: no cracks.
+// on the positions of its two ends, so all triangles at it, also those of other primitives, agree:
+// no cracks.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ class DividedMesh {
     std::vector<uint32_t> points;  // by vertex
     std::vector<Triangle> triangles;
   };
-  // Vertices with one place and normal are one point: they have the same light.
+  // Vertices with equal position and normal are one point: they have the same light.
   struct Point {
     vec3 position{0.0f};              // in the space of the node
     uint32_t site = 0;                // points with the same position have the same site
@@ -62,7 +62,7 @@ class DividedMesh {
   std::vector<Part> parts_;
   std::vector<Point> points_;
   SampleKeys pointKeys_, siteKeys_;
-  std::unordered_map<uint64_t, uint32_t> midpoints_;  // of the present part, by its vertices
+  std::unordered_map<uint64_t, uint32_t> midpoints_;  // of the current part, by its vertices
 };
 
 }  // namespace lamplighter

@@ -1,6 +1,6 @@
 // Bounced light at any point of the surface: texels of all surfaces exchange light, and the last
-// bounce is gathered from them at the point (paper 3, section 4.3: final gathering). Nothing is
-// interpolated between points.
+// bounce is gathered from them at the point (paper 3, section 4.3: final gathering), without
+// interpolation between points.
 #pragma once
 
 #include <array>
@@ -13,23 +13,23 @@ namespace lamplighter {
 
 class GatheredLight {
  public:
-  // Finds the light of the texels. Refers to the scene and the rays. Of the options it uses those
+  // Computes the light of the texels. Keeps references to the scene and the rays. Uses the options
   // of texels, links and bounces.
   GatheredLight(const RenderScene& scene, const RayCaster& rays, const DirectLight& direct,
                 const TexelRadiosityOptions& options);
 
-  // On the front of a triangle of an object [W/m²]. Several threads may call it.
+  // Irradiance on the front of a triangle of an object [W/m²]. Thread-safe.
   vec3 irradiance(uint32_t object, uint32_t triangle, const ReceivingPlace& at) const;
-  // Of the texels, as memory allows [m].
+  // Side of the texels, within the memory limit [m].
   float side() const { return side_; }
 
  private:
-  // The middles of the quarters of a texel.
+  // The centres of the quarters of a texel.
   struct Quarters {
     std::array<vec3, 4> at;
-    std::array<bool, 4> isOpen{};  // on the surface, and not inside of an object
-    float share = 0.0f;            // of those on the surface that are open
-    // One of them that is open, if there is any.
+    std::array<bool, 4> isOpen{};  // on the surface, and not inside an object
+    float share = 0.0f;            // share of open quarters among those on the surface
+    // One of the open quarters, if there is any.
     const vec3& any(uint32_t number) const {
       for (uint32_t k = 0; k < 4; ++k)
         if (isOpen[(number + k) % 4]) return at[(number + k) % 4];
@@ -41,7 +41,7 @@ class GatheredLight {
   void bounce(const std::vector<vec3>& direct);
   uint32_t texelAt(uint32_t object, uint32_t triangle, const vec3& position) const;
   vec3 gathered(const SurfaceSpot& spot, uint32_t texel) const;
-  // Of what a spot sees.
+  // Sums over the texels that a spot sees.
   struct Sum {
     vec3 light{0.0f};      // [W/m²]
     float weights = 0.0f;  // shares of the light that arrives
@@ -62,9 +62,9 @@ class GatheredLight {
   std::vector<ObjectAtlas> atlases_;  // by object
   TexelSet texels_;
   TexelTree tree_;
-  SurfaceDepths depths_;            // of stored visibility
+  SurfaceDepths depths_;            // for stored visibility
   std::vector<Quarters> quarters_;  // by texel
-  // By texel: what its open quarters reflected before the last bounce [W/m²].
+  // By texel: radiosity of its open quarters before the last bounce [W/m²].
   std::vector<vec3> reflected_;
 };
 

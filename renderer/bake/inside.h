@@ -1,4 +1,4 @@
-// Whether a place of a surface lies inside of another object, where no light is wanted.
+// Whether a point of a surface lies inside another object, where light is not needed.
 #pragma once
 
 #include "renderer/methods/path_tracer/path_tracer.h"
@@ -6,7 +6,8 @@
 
 namespace lamplighter {
 
-// By a few rays: most of them hit back faces that no camera sees. `key`: chooses the rays.
+// Tested by a few rays: most of them hit back faces that are not visible from outside. `key`:
+// selects the rays.
 bool isInside(const RenderScene& scene, const RayCaster& rays, const ReceivingPlace& at,
               uint32_t key);
 

@@ -1,4 +1,4 @@
-// The meshes of nodes and the objects that show them, to give nodes meshes of their own.
+// The meshes of nodes and their objects, for replacing them by meshes of single nodes.
 #pragma once
 
 #include <memory>
@@ -15,9 +15,9 @@ struct NodeMesh {
     uint32_t object = 0;   // index into RenderScene::objects
   };
   size_t node = 0;          // index into Scene::nodes
-  std::vector<Part> parts;  // those that are shown; at least one
+  std::vector<Part> parts;  // visible parts; at least one
 };
-// Of all nodes with a mesh that is shown. `render` must be made from `scene`.
+// All nodes with a visible mesh. `render` must be made from `scene`.
 std::vector<NodeMesh> nodeMeshes(const Scene& scene, const RenderScene& render);
 
 // Replaces meshes of a copy of a scene. The first node of a mesh that gets another one takes its

@@ -10,12 +10,12 @@ struct VertexLightOptions {
   // An edge is divided if the light at a point of it differs by more than this share from linear
   // interpolation between its ends. Relative to the light there plus the mean of the scene.
   float contrast = 0.05f;
-  float shortestEdge = 0.1f;  // shorter edges are not made [m]
+  float shortestEdge = 0.1f;  // shortest edge created by division [m]
 };
 
 class VertexLight {
  public:
-  // Finds the light at the vertices. Refers to the arguments.
+  // Computes the light at the vertices. Keeps references to the arguments.
   VertexLight(const RenderScene& scene, const BakedLight& light, const Mesh& mesh,
               const NodeMesh& node);
 
@@ -26,7 +26,7 @@ class VertexLight {
   Sum sum() const;  // over the vertices whose light is known
 
   // Divides edges until no contrast is too large, then fills the vertices inside other objects with
-  // the light of their neighbours. `mean`: of the scene [W/m²].
+  // the light of their neighbours. `mean`: mean irradiance of the scene [W/m²].
   void refine(const VertexLightOptions& options, float mean);
 
   // The mesh, with colours multiplied by irradiance / π. They may exceed 1.

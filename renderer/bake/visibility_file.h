@@ -1,4 +1,5 @@
-// What texels of the surface see, as a file for other programs: docs/reference/visibility.md.
+// Writes the visibility of texels of the surface to a file for other programs:
+// docs/reference/visibility.md.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 namespace lamplighter {
 
 struct SurfaceVisibility {
-  float side = 0.0f;  // of the texels, as memory allows [m]
+  float side = 0.0f;  // side of the texels, within the memory limit [m]
   TexelSet texels;
   SurfaceDepths depths;
 };

@@ -1,7 +1,7 @@
 // Prefix sums, and sampling by inverting a cumulative distribution (CDF). Close numbers give close
-// results, so that low-discrepancy points stay well distributed; alias_table.h is faster, but mixes
-// them up. Serial, summed in double precision: the same bits on every machine. The gl backend has
-// the same in compute shaders (renderer/gl/scan.h).
+// results, so that low-discrepancy points stay well distributed; alias_table.h is faster, but does
+// not keep close numbers close. Serial, summed in double precision: the same bits on every machine.
+// The gl backend has the same in compute shaders (renderer/gl/scan.h).
 #pragma once
 
 #include <cstddef>

@@ -60,8 +60,8 @@ class ContentCache {
   std::optional<std::vector<uint8_t>> load(const ContentKey& key,
                                            std::optional<size_t> size = {}) const;
   // Writes under a temporary name first, so that no reader finds a partial file. Returns whether it
-  // succeeded. A failure (disk full, no permission) is no error: the result is computed again next
-  // time.
+  // succeeded. A failure (disk full, no permission) is not an error: the result is computed again
+  // next time.
   bool save(const ContentKey& key, std::span<const uint8_t> result) const;
   // Deletes the oldest files of this kind until the others take at most `bytes`.
   void keepWithin(uintmax_t bytes) const;

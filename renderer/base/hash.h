@@ -1,5 +1,5 @@
 // FNV-1a (Fowler, Noll and Vo) with 64 bits: hashes of contents, which are stored in files and
-// compared between runs and machines. Not for input that was made to collide.
+// compared between runs and machines. Not safe against input that is designed to collide.
 #pragma once
 
 #include <algorithm>

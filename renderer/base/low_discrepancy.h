@@ -25,7 +25,7 @@ class PathSampler {
       : pixel_(pixel), sample_(sample), seed_(seed) {}
   vec2 next2();
   float next1();  // the first number of next2()
-  // Leaves out a dimension that is not needed: later ones stay the same.
+  // Skips a dimension that is not needed, so that later ones do not change.
   void skip() { ++dimension_; }
 
  private:

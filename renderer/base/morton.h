@@ -1,4 +1,4 @@
-// The order of cells along a Z-shaped curve: neighbours on the curve are near each other in space
+// The order of cells along a Z-shaped curve: neighbours on the curve are close in space
 // (Morton 1966).
 #pragma once
 

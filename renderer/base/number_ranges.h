@@ -1,4 +1,5 @@
-// Ranges of numbers for things that come and go, so that those that stay keep their numbers.
+// Allocates ranges of numbers for objects that are added and removed, so that the others keep their
+// numbers.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@ namespace lamplighter {
 
 class NumberRanges {
  public:
-  // The first of `count` numbers in a row that are free: the lowest ones.
+  // Allocates the lowest `count` consecutive free numbers and returns the first.
   uint32_t take(uint32_t count) {
     if (count == 0) return 0;
     for (auto it = free_.begin(); it != free_.end(); ++it) {

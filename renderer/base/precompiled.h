@@ -1,5 +1,5 @@
-// What most sources include and never changes, compiled once (cmake/quick_build.cmake). Every source
-// still includes what it uses: only the preset release precompiles.
+// Headers that most sources include and that never change, compiled once (cmake/quick_build.cmake).
+// Every source still includes what it uses: only the preset release precompiles.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <tbb/parallel_for.h>
-#include <nlohmann/json.hpp>
 
 #include "renderer/base/math.h"

@@ -1,7 +1,7 @@
 // Statistics as members of a struct, declared like parameters. The status line, the timeline, the
 // costs of budgets, `render --stats` and the docs list them by these declarations alone:
 //
-//   struct ProbeStats : GiStats {  // what every method has, see renderer/methods/gi_method.h
+//   struct ProbeStats : GiStats {  // statistics of every method, see renderer/methods/gi_method.h
 //     int probes = 0;
 //   };
 //   const StatisticTable<ProbeStats>& probeStatistics() {
@@ -26,7 +26,7 @@
 
 namespace lamplighter {
 
-// What the time of a stage depends on, as far as a frame can be told to do less.
+// The work limit of a frame on which the time of a stage depends.
 enum class StageWork {
   fixed,     // none of the following
   updates,   // GiStats::updates
@@ -67,15 +67,16 @@ struct StatisticSpec {
   // The text in the status line; "": none. {} is the value; "(s)" and "(es)" become a plural unless
   // the value is 1. A text that starts with a comma or a space continues that of the row before.
   std::string status{};
-  double shownFrom = 1.0;  // smaller values are not in the status line
-  double shownBelow = std::numeric_limits<double>::infinity();  // nor others than smaller ones
+  double shownFrom = 1.0;  // smaller values are not shown in the status line
+  double shownBelow = std::numeric_limits<double>::infinity();  // only smaller values are shown
 
   std::string budget{};  // the parameter that limits it, if any
-  // Of work: the stages whose time it takes. The cost of the budget is this time.
+  // For work: the stages that do it. Their time is the cost of the budget.
   std::vector<StageSpec> stages{};
-  // Of a state: its text in the cost of the budget, as `status`. It is left out if the value is 0.
+  // For a state: its text in the cost of the budget, in the format of `status`. Not shown if the
+  // value is 0.
   std::string cost{};
-  bool isHeld = true;  // of bytes: they are in memory; false: they would be needed
+  bool isHeld = true;  // for bytes: they are in memory; false: they would be needed
 
   bool isWhole = true;  // the table sets it from the type of the member
 };

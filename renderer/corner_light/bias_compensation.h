@@ -16,11 +16,12 @@
 
 namespace lamplighter {
 
-// For one set of VPLs, of which each pixel uses other ones. The result is an unbiased estimate: its
-// mean over many sets is exact.
+// For one set of VPLs, of which each pixel uses different ones. The result is an unbiased estimate:
+// its mean over many sets is exact.
 class BiasCompensation {
  public:
-  // What an object emits: its control (light_controls.h), and the reference brightness of that.
+  // Emission of an object: its control (light_controls.h) and the reference brightness of the
+  // control.
   struct Emission {
     uint32_t group = 0;
     float reference = 0.0f;  // 0: it emits nothing
@@ -41,8 +42,8 @@ class BiasCompensation {
     // By object: the direct light of pixels from it is exact (near_lamps.h). Empty: for no object.
     // Must outlive this object.
     std::span<const uint8_t> exactLamps = {};
-    // To find the light of each group of lights: the group of each VPL, and what each object emits.
-    // Must outlive this object. Empty: all is one group.
+    // For the light of each group of lights: the group of each VPL, and the emission of each
+    // object. Must outlive this object. Empty: one group.
     std::span<const uint32_t> groups = {};
     std::span<const Emission> emissions = {};
   };
@@ -55,20 +56,20 @@ class BiasCompensation {
     vec3 albedo{0.0f};  // 0 if the pixel hits nothing
     vec3 position{0.0f}, normal{0.0f};
   };
-  // What one group adds to the light of a pixel.
+  // Contribution of one group to the light of a pixel.
   struct Contribution {
     uint32_t pixel = 0, group = 0;
     vec3 light{0.0f};
   };
   // Computes these rows of the view's picture, with pixels shifted by `jitter`, and writes them at
-  // their indices of `pixels`. `byRow`: for each row of the picture the contributions, which are
-  // not in the light of the pixels then; empty: no contributions.
+  // their indices of `pixels`. `byRow`: if not empty, receives the contributions of groups for each
+  // row of the picture, which are then not included in the light of the pixels.
   void findRows(const View& view, vec2 jitter, int first, int last, std::span<Pixel> pixels,
                 std::span<std::vector<Contribution>> byRow = {}) const;
 
  private:
-  // A sun is sampled with one ray. Its sun shadow tiles are not chosen as VPLs: of many tiles only
-  // one covers a place.
+  // A sun is sampled with one ray. Its sun shadow tiles are not chosen as VPLs: only one of many
+  // tiles covers a point.
   struct Sun {
     VplId set;
     vec3 towards{0.0f}, irradiance{0.0f};
@@ -94,14 +95,14 @@ class BiasCompensation {
     vec3 position, normal;  // offset from the surface, on the lit side
     uint32_t leftOutBy;     // light_linking.h
   };
-  // Takes what the groups contribute to a pixel.
+  // Receives the contributions of the groups to a pixel.
   struct Sink;
   Pixel pixel(const vec3& direction, const Hit& hit, uint32_t index,
               std::vector<Contribution>* contributions) const;
   // `whole`: the object whose light on itself is already known; none: 0xffffffff.
   void gather(Place from, uint32_t whole, const vec3& shadingNormal, PathSampler& sampler,
               Sink& sink) const;
-  // What the surface at a hit emits towards the ray.
+  // Emission of the surface at a hit towards the ray.
   void addEmission(const Hit& hit, const Surface& s, bool front, const vec3& throughput,
                    Sink& sink) const;
   // The irradiance of suns and of other VPLs, times the throughput.

@@ -10,8 +10,8 @@
 namespace lamplighter {
 
 // The sum of the form factors of all triangles that face a point. Edges between two triangles that
-// both face it, or both do not, cancel each other: what is left are the outlines of the mesh, some
-// 40 of the 1,920 edges of a sphere.
+// both face it, or both do not, cancel each other: only the outlines of the mesh remain, about 40
+// of the 1,920 edges of a sphere.
 class MeshFactor {
  public:
   static constexpr size_t kMostTriangles = 2048;
@@ -23,12 +23,12 @@ class MeshFactor {
 
   // ∫ cos θ dω over the mesh above the horizon of the unit normal n at x, each triangle on its own
   // [sr]: the irradiance if the mesh has radiance 1 and hides nothing. Triangles in whose plane x
-  // lies count nothing.
+  // lies contribute nothing.
   float at(const vec3& x, const vec3& n) const;
 
  private:
-  // The edge between two vertices, of a triangle that has it in this direction, and of one that has
-  // it in the other one (kNoTriangle: none).
+  // The edge between two vertices, a triangle that has it in this direction, and one that has it in
+  // the opposite direction (kNoTriangle: none).
   struct Edge {
     uint32_t from, to;
     uint16_t forwards, backwards;

@@ -1,7 +1,8 @@
 // Replaces the sum of light samples near a lamp by its form factor in closed form. Samples of a
 // large lamp are spots: near it, surfaces show the spots, and the clamp of 1/d² removes light. The
-// sum U without shadows is off by F − U, F the form factor times the radiance. Of that, the share
-// that is not blocked is missing, which is estimated as the ratio of sums with and without shadows
+// sum U without shadows is off by F − U, F the form factor times the radiance. The unblocked share
+// of this difference is missing; the share is estimated as the ratio of sums with and without
+// shadows
 // (Heitz, Hill and McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", 2018).
 #pragma once
 
@@ -29,7 +30,7 @@ class NearLamps {
   // By object, for BiasCompensation, which must not add the light of these lamps again.
   std::span<const uint8_t> exactLamps() const { return isExact_; }
 
-  // What is missing at the pixels of these rows, shifted by `jitter`, at the reference brightness
+  // The missing light at the pixels of these rows, shifted by `jitter`, at the reference brightness
   // of the lamps, as radiance of the surfaces; may be negative. `sample`: selects the random
   // numbers. `byRow`: for each row of the picture; groups are controls.
   void findRows(const View& view, vec2 jitter, uint32_t sample, int first, int last,

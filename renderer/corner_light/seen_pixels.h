@@ -1,4 +1,4 @@
-// What the camera sees in eight neighbouring pixels of a row.
+// The surfaces that the camera sees in eight neighbouring pixels of a row.
 #pragma once
 
 #include <array>

@@ -60,7 +60,7 @@ class ComputeProgram : public Program {
   // Runs the shader with at least this many invocations, in whole work groups: the shader compares
   // gl_GlobalInvocationID with the size that it needs. `readers`: how later commands read what the
   // shader writes, as bits of glMemoryBarrier(). Throws InputError if there are more work groups
-  // than OpenGL takes.
+  // than OpenGL allows.
   void dispatch(const glm::uvec3& invocations, GLbitfield readers) const;
   void dispatch(uint32_t invocations, GLbitfield readers) const {
     dispatch({invocations, 1, 1}, readers);

@@ -1,4 +1,4 @@
-// How long the GPU works for each stage of a frame, known some frames later.
+// Time of the GPU for each stage of a frame, known some frames later.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ class StageClock {
  public:
   void begin();            // of a frame
   void end(size_t stage);  // of the commands since the last call
-  // In the newest frame that the GPU has finished; 0: it had no such stage.
+  // Seconds of the stage in the newest frame that the GPU has finished; 0: it had no such stage.
   double seconds(size_t stage) const { return stage < seconds_.size() ? seconds_[stage] : 0.0; }
 
  private:
   struct Mark {
-    size_t stage = 0;  // that ends here; the first mark of a frame ends none
+    size_t stage = 0;  // the stage that ends here; the first mark of a frame ends none
     QueryObject query;
   };
   void mark(size_t stage);

@@ -68,7 +68,7 @@ class StorageBuffer {
                        "use --backend cpu");
     }
     if (!buffer_) buffer_ = Buffer::make();
-    // Room for one element at least, because a binding must not be empty.
+    // Memory for at least one element, because a binding must not be empty.
     glNamedBufferData(buffer_.name(),
                       static_cast<GLsizeiptr>(std::max<size_t>(count, 1) * sizeof(T)),
                       count == 0 ? nullptr : values, GL_DYNAMIC_DRAW);

@@ -1,4 +1,4 @@
-// The calls that wait for the GPU. Nothing else may: tests/layers_test.sh checks it.
+// The calls that wait for the GPU. No other code may wait for it: tests/layers_test.sh checks this.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,13 @@
 
 namespace lamplighter::gl {
 
-// Counts its calls. A frame with none leaves the GPU at work while the next one is prepared.
+// Counts its calls. In a frame without such calls, the GPU continues to work while the next frame
+// is prepared.
 class Waits {
  public:
   uint64_t count() const { return count_; }
 
-  // Until all submitted work is done.
+  // Waits until all submitted work is done.
   void finish();
   // Copies the largest level of a texture to `to`, which has room for `bytes`.
   void readTexture(GLuint texture, GLenum format, GLenum type, size_t bytes, void* to);

@@ -31,8 +31,8 @@ struct Guided {
   bool isInside = true;
 };
 
-// Draws about a middle, which may be outside of the picture, with a density in proportion to
-// min(1, 1/x²), as far as the farthest corner. x is in `unit` pixels.
+// Draws around a centre, which may be outside the picture, with a density in proportion to min(1,
+// 1/x²), as far as the farthest corner. x is in `unit` pixels.
 Guided drawNear(const vec2& middle, const vec2& size, float unit, vec2 u) {
   const vec2 farthest = glm::max(glm::abs(middle), glm::abs(size - middle));
   const float far = std::max(glm::length(farthest) / unit, 1.0f);
@@ -110,7 +110,7 @@ std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const GBuff
   std::vector<float> out(map.size(), 0.0f);
   const ReflectiveMap::Texels& t = map.texels();
   const vec2 size(gbuffer.width(), gbuffer.height());
-  // The jittered grid is as square as the number of samples lets it be.
+  // The jittered grid is as square as possible for the number of samples.
   const int across = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(options.count))));
   const int down = std::max(1, options.count / across);
   tbb::parallel_for(0, map.columns(), [&](int column) {

@@ -8,8 +8,8 @@
 namespace lamplighter {
 namespace {
 
-// Pixels are on the same surface if their normals differ by less than this cosine, and if they are
-// off each other's plane by less than this share of their distance.
+// Pixels are on the same surface if their normals differ by less than this cosine, and if the
+// distance of each from the plane of the other is less than this share of their distance.
 constexpr float kLeastCosine = 0.9f, kMostOff = 0.1f;
 
 struct BlurPixel {

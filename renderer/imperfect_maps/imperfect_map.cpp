@@ -11,7 +11,8 @@
 namespace lamplighter {
 namespace {
 
-// Planes on both sides of a hole are the same if they agree in it up to this share.
+// Planes on both sides of a hole are considered equal if their depths in the hole agree within this
+// share.
 constexpr float kSamePlaneDepth = 0.03f;
 
 }  // namespace

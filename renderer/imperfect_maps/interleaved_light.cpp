@@ -77,7 +77,7 @@ cpu::SumConstants constantsOf(const MapLight& light, const InterleavedOptions& o
   return out;
 }
 
-// The light of one class after the other, with the memory of a thread.
+// Sums the light of one class after the other, with buffers of one thread.
 class ClassSum {
  public:
   explicit ClassSum(const InterleavedOptions& options) : options_(options), maps_(options.map) {}

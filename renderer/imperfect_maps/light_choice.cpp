@@ -24,7 +24,7 @@ std::optional<vec3> inPicture(const View& view, const vec3& world) {
               2.0f * p.y / static_cast<float>(view.height) - 1.0f, view.znear / p.z);
 }
 
-// A texel that `step` leads to, in the same block.
+// The texel at an offset of `step`, in the same block.
 std::optional<size_t> neighbourOf(const ReflectiveMap& map, int column, int row, int stepColumn,
                                   int stepRow) {
   const ReflectiveMap::Block& block = map.blockOf(column);

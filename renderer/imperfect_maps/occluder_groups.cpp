@@ -17,7 +17,7 @@ std::shared_ptr<const OccluderOrder> orderOfObject(const RenderScene& scene, uin
       scene.localPositions, std::span(scene.indices).subspan(o.firstIndex, o.indexCount)));
 }
 
-// Computes everything but the place of the group among the others.
+// Computes everything except the index range of the group.
 void measureGroup(const RenderScene& scene, OccluderGroup& group,
                   std::span<OccluderTriangle> triangles) {
   const uint32_t* indices = &scene.indices[scene.objects[group.object].firstIndex];
@@ -116,8 +116,8 @@ void OccluderGroups::findOrders(const RenderScene& scene, std::span<const uint8_
       objects_[i].order = orders_.at(keyOf(i));
 }
 
-// Gives each object its part of the arrays. If another part than before, moves what is known there,
-// and marks objects that had none as stale. Returns whether any part is another one.
+// Assigns to each object its part of the arrays. If a part changed, moves the known data there, and
+// marks objects without old data as stale. Returns whether any part changed.
 bool OccluderGroups::place(const RenderScene& scene, std::vector<uint8_t>& isStale) {
   std::vector<Object> placed = objects_;
   bool differs = false;

@@ -11,7 +11,7 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kSeeingSet = 0xb3;
-// Rays that are counted as arriving besides those that do.
+// Number that is added to the unblocked rays.
 constexpr float kArriving = 0.5f;
 
 }  // namespace

@@ -13,12 +13,14 @@ namespace {
 
 constexpr uint32_t kShiftSet = 0x5417;
 constexpr size_t kReceiversATime = 512;
-// Receivers that are seen at so small an angle have no plane along the lines [cosine].
+// Receivers below this cosine to the lines are traced with rays, because their plane is almost
+// parallel to the lines.
 constexpr float kGrazing = 0.03f;
-// A crossing so near in front of the own plane is of the own surface [cells].
+// A crossing at most this far in front of the own plane belongs to the own surface [cells].
 constexpr float kOwnDepth = 0.1f;
-// The own surface is at the middle of the cell if it is crossed there so near behind the own plane:
-// curved surfaces leave it, and what they hide may be behind a wall [cells].
+// The own surface covers the centre of the cell if there is a crossing at most this far behind the
+// own plane. Curved surfaces leave the plane, and surfaces that they hide may be behind a wall
+// [cells].
 constexpr float kOwnBehind = 0.1f;
 
 // Traces rays eight at a time, in the order in which they come.
@@ -73,9 +75,9 @@ class RayBatch {
 
 enum class Sight : uint8_t { seen, unclear };
 
-// What a receiver sees along the line of a cell. The plane of the receiver is taken at the middle
-// of the cell, where the crossings are; the partner's at the receiver's own line. `at`: of the
-// receiver, on the grid.
+// Finds what a receiver sees along the line of a cell. The plane of the receiver is evaluated at
+// the centre of the cell, where the crossings are; that of the partner at the receiver's own line.
+// `at`: position of the receiver on the grid.
 Sight seenAlong(const LineRaster& raster, const glm::ivec2& cell, const vec3& at,
                 const FieldReceiver& from, float cosine, const FieldGeometry& geometry,
                 const PartnerNumbers& numbers, uint32_t sky, uint32_t& out) {
@@ -109,7 +111,7 @@ Sight seenAlong(const LineRaster& raster, const glm::ivec2& cell, const vec3& at
     return Sight::seen;
   }
   const LineTriangle& partner = raster.triangle(crossings[static_cast<size_t>(next)].triangle);
-  // In a corner the partner's plane may be behind the receiver.
+  // In a corner the plane of the partner may be behind the receiver.
   const float depth = partner.depthAt(vec2(at));
   if (sign * (depth - at.z) <= kOwnDepth * grid.cell) return Sight::unclear;
   if (!partner.hasTexels) {
@@ -124,7 +126,7 @@ Sight seenAlong(const LineRaster& raster, const glm::ivec2& cell, const vec3& at
 }
 
 // Along the line of its own cell, or of a neighbour on the nearer side: at the border of a surface
-// its own cell may have its middle beyond.
+// the centre of its own cell may lie outside the surface.
 Sight seenNear(const LineRaster& raster, const FieldReceiver& from, float cosine,
                const FieldGeometry& geometry, const PartnerNumbers& numbers, uint32_t sky,
                uint32_t& out) {

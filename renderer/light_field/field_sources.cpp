@@ -11,13 +11,13 @@
 namespace lamplighter {
 namespace {
 
-// Places of a direction's part of the sphere at which the sky is taken.
+// Number of points in the part of the sphere of a direction at which the sky is sampled.
 constexpr uint32_t kSkyPlaces = 32;
 constexpr uint32_t kSkyPlaceSet = 0x51ce;
 
 vec4 sentBy(const vec3& radiance) { return {radiance, 0.0f}; }
 
-// Of the sky without its suns; 0 without a sky.
+// Radiance of the sky without suns; 0 without a sky.
 vec3 skyBrightness(const LightSet& lights) {
   if (lights.unitSky().isBlack()) return vec3(0.0f);
   for (const Emitter& e : lights.emitters())
@@ -25,7 +25,7 @@ vec3 skyBrightness(const LightSet& lights) {
   return vec3(0.0f);
 }
 
-// Of the places of an area light: the mean over some points of each.
+// Radiance of the places of an area light: the mean over some points of each.
 std::vector<vec4> emissionOfLamp(const RenderScene& scene, uint32_t object) {
   constexpr uint32_t kPoints = 1024, kLeastPoints = 16, kPointSet = 0x1a3b;
   const RenderObject& o = scene.objects[object];

@@ -10,10 +10,10 @@
 namespace lamplighter {
 namespace {
 
-// Texels around a place, to all sides, of which the nearest is taken where there is none.
+// Search radius for the nearest texel at points without a texel [texels].
 constexpr int kTexelReach = kGutter + 1;
 
-// The nearest texel to the middle of a cell of a rectangle, best one that is not buried.
+// The texel nearest to the centre of a cell of a rectangle, preferably one that is not buried.
 uint32_t nearestTexel(const TexelSet& texels, const TexelSet::Part& part, int x, int y) {
   uint32_t best = TexelSet::kNone;
   int bestFar = 0;

@@ -161,8 +161,8 @@ vec3 LightField::skyTowards(const vec3& direction) const {
   return options_.showsSky ? skyRadiance(lights_, direction) : vec3(0.0f);
 }
 
-// Sets what texels send: what they reflect of the light of lamps, of the sky and of bounced light,
-// which is found by block.
+// Sets the radiance of texels: reflected light of lamps, of the sky, and bounced light, which is
+// computed by block.
 void LightField::send() {
   sent_.assign(sources_.size(), vec4(0.0f));
   tbb::parallel_for(size_t{0}, receivers_.size(), [&](size_t t) {
@@ -172,7 +172,7 @@ void LightField::send() {
   });
 }
 
-// From nothing: light of the sky, then each bounce.
+// From scratch: light of the sky, then each bounce.
 void LightField::bounce(const RenderScene& scene) {
   const std::vector<PartnerRow> rows = table_.rows();
   if (rows.empty() || receivers_.empty()) {
@@ -224,7 +224,7 @@ void LightField::show() {
     if (hasSets) sum += setSums_[t];
     now[t] = irradianceOf(sum);
   });
-  // While partners are found from nothing, the light of before fades.
+  // While all partners are computed again, the previous light is faded out.
   if (table_.isFull()) former_.clear();
   if (former_.size() == now.size()) {
     const float share = table_.shareKnown();
@@ -235,8 +235,8 @@ void LightField::show() {
   ++version_;
 }
 
-// The light of all bounces but the last is known by block. Within a block it is spread like that of
-// the last, so that mirrors show no blocks.
+// The light of all bounces except the last is known by block. Within a block it is distributed like
+// that of the last bounce, so that mirrors show no blocks.
 void LightField::findReflected() {
   reflected_.assign(receivers_.size(), vec3(0.0f));
   if (!options_.showsBounces) return;
@@ -252,8 +252,8 @@ void LightField::findReflected() {
   });
 }
 
-// Turned sets of directions: each adds to the sums of all texels, so that none shows its
-// directions.
+// Rotated sets of directions: each adds to the sums of all texels, so that single directions are
+// not visible.
 void LightField::findSets(const RenderScene& scene, const RayCaster& rays, uint64_t mostWork) {
   if (nextOfSets_ >= directionsOfSets() || receivers_.empty()) return;
   if (nextOfSets_ == 0) setSums_.assign(receivers_.size(), vec4(0.0f));

@@ -10,20 +10,20 @@ namespace {
 
 int firstCentreFrom(float x) { return static_cast<int>(std::ceil(x - 0.5f)); }
 
-// Whether no middle of a cell lies between these.
+// Whether no cell centre lies between these.
 bool isBetweenCentres(float a, float b, float c) {
   return std::ceil(std::min(a, std::min(b, c)) - 0.5f) ==
          std::ceil(std::max(a, std::max(b, c)) - 0.5f);
 }
 
-// Where an edge is at a row. The same for both triangles of the edge, so that no line passes
+// Position of an edge at a row: equal for both triangles of the edge, so that no line passes
 // between them or meets both.
 float edgeAt(vec3 a, vec3 b, float y) {
   if (b.y < a.y || (b.y == a.y && b.x < a.x)) std::swap(a, b);
   return a.x + (y - a.y) * ((b.x - a.x) / (b.y - a.y));
 }
 
-// The linear function with these values at three places: its value at the origin and its slopes.
+// The linear function with these values at three points: its value at the origin and its slopes.
 vec3 linearThrough(const std::array<vec3, 3>& p, float area, float v0, float v1, float v2) {
   const float d1 = v1 - v0, d2 = v2 - v0;
   const float x1 = p[1].x - p[0].x, y1 = p[1].y - p[0].y;
@@ -121,7 +121,7 @@ void LineRaster::addTriangle(const RenderScene& scene, const FieldSurface::Trian
   }
 }
 
-// The parts of a run that are no holes.
+// The parts of a run that are not holes of the alpha mask.
 void LineRaster::addMasked(const RenderScene& scene, const FieldSurface::Triangle& triangle,
                            const Run& run, const Corners& p) {
   const float area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);

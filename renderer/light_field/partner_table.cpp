@@ -12,7 +12,7 @@ size_t spreadDirection(size_t place, size_t directions) {
 }
 
 uint64_t workOf(const PartnerCounts& counts, size_t triangles) {
-  constexpr uint64_t kTriangles = 3, kRay = 24;  // of as much work as a sample, or more
+  constexpr uint64_t kTriangles = 3, kRay = 24;  // triangles per unit of work; units per ray
   return counts.samples + counts.crossings + kRay * counts.rays + triangles / kTriangles;
 }
 

@@ -114,7 +114,7 @@ std::shared_ptr<RadianceImage> AtlasPicture::addTo(const FrameInputs& in,
     lobes_.add(in.scene, in.services.rays(), mirror, in.backend.hostGBuffer(), options,
                {0, view_.height});
   }
-  // The shifted ones when there are all.
+  // The shifted pictures, once all exist.
   const bool isSmooth =
       changes.none() && antialias > 1 && static_cast<int>(samples_.size()) == antialias + 1;
   const std::span<const Sample> parts =

@@ -13,9 +13,9 @@ namespace lamplighter {
 
 namespace {
 
-// Rays of a frame: some 25 ms on two cores.
+// Maximum number of rays per frame: about 25 ms on two cores.
 constexpr uint64_t kRaysAFrame = 150'000;
-// Pixels of a picture at rest that a frame adds: some 50 ms if all of them are glossy.
+// Pixels of a picture at rest that a frame adds: about 50 ms if all of them are glossy.
 constexpr int kPixelsAFrame = 150'000;
 
 int rowsAFrame(const View& view) { return std::max(1, kPixelsAFrame / view.width); }
@@ -41,7 +41,7 @@ void BouncedPicture::update(const FrameInputs& in, const SurfaceLightOptions& li
   if (isOtherView) records_.restart(in.view, light.seed, light.projection);
   records_.outdate(gatherScene(in), light_);
   isAtRest_ = light_.keptMesh() && !isOtherView;
-  // Pixels keep their places on the elements only if nothing of the scene changes.
+  // Pixels keep their positions on the elements only if nothing in the scene changes.
   if (isAtRest_ && picture == options_) return;
   recordsAreOutdated_ = true;
   keepsPixels_ = !isOtherView && picture == options_ && !light_.hasOtherElements() &&
@@ -60,7 +60,8 @@ std::shared_ptr<RadianceImage> BouncedPicture::addTo(const FrameInputs& in,
                                                      int antialias, bool& gbufferIsCurrent) {
   updateRecords(in, gbufferIsCurrent);
   // Only in frames without a change: during a motion these rays would be traced again each time.
-  // Nor while records are chosen, which drops the pixels, if these take several frames.
+  // Not while records are chosen either, because that discards the pixels, if these take several
+  // frames.
   const bool hasTime =
       isAtRest_ && !hasOtherLight_ && (records_.isDone() || rowsAFrame(view_) >= view_.height);
   if (hasTime && !still_.isComplete())

@@ -9,15 +9,17 @@
 namespace lamplighter {
 namespace {
 
-// Texels of which all links fit in a frame of a drag: five bounces take 10 ms on two cores.
+// Maximum number of texels whose links can be summed in a frame of a drag: five bounces take 10 ms
+// on two cores.
 constexpr double kMostLinkedTexels = 10'000.0;
 
-// Triangles with which a frame of a drag takes seconds with meshes: in a dungeon of 1.3 million
-// 2.4 s, with imperfect shadow maps 0.2 s.
+// Number of triangles above which a frame of a drag takes seconds with meshes: 2.4 s in a dungeon
+// of 1.3 million triangles, with imperfect shadow maps 0.2 s.
 constexpr size_t kMostMeshedTriangles = 600'000;
 
-// Lamps for which levels of many triangles take long to settle with meshes, which find the light of
-// each lamp on each element: 100 lamps in a hall 19 s, with imperfect shadow maps 7 s.
+// Number of lamps above which levels of many triangles take long to settle with meshes, which
+// compute the light of each lamp on each element: 19 s for 100 lamps in a hall, with imperfect
+// shadow maps 7 s.
 constexpr size_t kMostMeshedLamps = 32;
 
 // Objects and punctual lights that shine while they are on.
@@ -46,7 +48,7 @@ CarrierChoice carrierFor(const RenderScene& scene, float texel) {
   if (!scene.nominalSky.isBlack()) return meshes("the sky gives light");
   if (triangles > kMostMeshedTriangles)
     return {BouncedCarrier::imperfect, fmt::format("{} triangles are many for meshes", triangles)};
-  // Before the area of a large scene is summed.
+  // Tested before the area of a large scene is summed.
   if (static_cast<double>(triangles) > kMostLinkedTexels)
     return meshes(fmt::format("{} triangles are finer than texels", triangles));
   double area = 0.0;

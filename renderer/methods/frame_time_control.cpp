@@ -9,16 +9,16 @@ namespace {
 constexpr double kWeight = 0.5;  // of the last frame in the running mean
 constexpr double kLeastGrowth = 0.5;
 
-// This much work is done at any cost: a slow picture that converges is better than one that never
-// does.
+// Minimum work per frame: a slow picture that converges is better than one that never does.
 constexpr double kLeastUpdates = 16.0, kMostUpdates = 65536.0;
 constexpr double kLeastSurfaceWork = 0.15, kMostSurfaceWork = 8.0;
 
-// Of the first frame, whose time is not known. It takes long anyway, because a level was opened.
+// Work of the first frame, whose time is not known. It takes long anyway, because a level was
+// opened.
 constexpr double kFirstUpdates = 64.0;
 
-// The share of the limit that each kind of work gets at least. Without it, light on surfaces would
-// leave nothing to the direct light of a dragged lamp, which would lag behind.
+// Minimum share of the limit for each kind of work. Without it, light on surfaces would leave
+// nothing to the direct light of a dragged lamp, which would lag behind.
 constexpr double kLeastShare = 0.25;
 // The share of the time for paths that repair a picture before it has settled. A larger one would
 // delay the picture itself.
@@ -30,8 +30,8 @@ void average(double& mean, double value) {
 
 }  // namespace
 
-// Ignores frames that say nothing about the limit: without such work, or with less than allowed in
-// less time than wanted.
+// Ignores frames without information about the limit: without such work, or with less work than
+// allowed in less time than wanted.
 void WorkRate::measured(double amount, double seconds, double all) {
   if (amount == 0.0 || (amount < allowed_ && all < wanted_)) return;
   average(amount_, amount);
@@ -58,7 +58,7 @@ void FrameTimeControl::measured(const GiStats& stats) {
     if (stage.work == StageWork::surfaces) ofSurfaces += time;
     if (stage.work == StageWork::preview) ofPreview += time;
   }
-  // If no stage tells, all work counts as that of updates.
+  // If no stage declares its kind, all work counts as updates.
   if (ofUpdates == 0.0) ofUpdates = all - ofSurfaces;
   updates_.measured(stats.updates, ofUpdates, all);
   surfaces_.measured(static_cast<double>(stats.surfaceWork), ofSurfaces, all);

@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// Rays of a frame: some 50 ms on two cores.
+// Maximum number of rays per frame: about 50 ms on two cores.
 constexpr float kLinkRaysAFrame = 300'000.0f;
 constexpr float kMostPace = 8.0f;
 

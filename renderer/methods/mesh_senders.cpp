@@ -7,7 +7,7 @@
 namespace lamplighter {
 namespace {
 
-// What a ray sees of the element where it ends, as gatheredLight() sums it [W/m²].
+// The light of the element at the hit of a ray, as gatheredLight() sums it [W/m²].
 vec3 lightAtEnd(const GatherLink& link, const ReflectedLight& reflected) {
   const float* corners = &reflected[12 * size_t{link.leaf}];
   const vec3 w = link.weights();
@@ -17,7 +17,7 @@ vec3 lightAtEnd(const GatherLink& link, const ReflectedLight& reflected) {
   return sum;
 }
 
-// The middle of an element and the side of a square with its area, about.
+// The centre of an element and the approximate side of a square with its area.
 void placeSender(const RenderScene& scene, const SurfaceMesh& mesh, uint32_t leaf,
                  InspectedLink& out) {
   out.object = mesh.objectOfLeaf(leaf);

@@ -6,8 +6,8 @@
 namespace lamplighter {
 namespace {
 
-// A place is a texel and, in eight bits each, the weights of the two texels beside it, in the row
-// and in the column, with their sides.
+// A place is encoded as a texel and, in eight bits each, the weights and sides of the two
+// neighbouring texels in its row and column.
 constexpr float kMostWeight = 127.0f;
 
 uint64_t packedBlend(uint32_t texel, float right, float up, bool isLeft, bool isDown) {

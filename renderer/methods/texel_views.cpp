@@ -12,11 +12,11 @@
 namespace lamplighter {
 namespace {
 
-// White in the view of links.
+// Number of links that is shown as white.
 constexpr float kManyLinks = 1000.0f;
 // Share of segments per pixel of the depth maps that is shown as white.
 constexpr float kManySegments = 0.25f;
-// White in the view of errors, and the rays of a texel by which they are found.
+// Share of errors that is shown as white; rays per texel that find them.
 constexpr float kLargeError = 0.25f;
 constexpr size_t kErrorRays = 32;
 
@@ -24,7 +24,7 @@ constexpr size_t kErrorRays = 32;
 constexpr vec3 kFound{0.25f, 0.33f, 0.40f}, kHalfFound{0.95f, 0.78f, 0.26f},
     kMissing{0.80f, 0.27f, 0.24f};
 
-// Each texel in a colour.
+// Draws each texel in a colour.
 template <typename ColourOf>
 ViewPicture drawn(const TexelViewSubject& in, const ColourOf& colourOf) {
   ViewPicture out;
@@ -50,7 +50,7 @@ std::string percent(float share) {
   return std::to_string(static_cast<int>(100.0f * share + 0.5f)) + "%";
 }
 
-// Why there are no depths; "": they are found, or will be.
+// The reason why there are no depths; "": they are known or will be computed.
 std::string problemOfDepths(const TexelViewSubject& in) {
   const bool isMissing = in.light.isDone() && !in.light.depths().isDone();
   return isMissing ? "it needs link_visibility=stored" : "";
@@ -81,7 +81,7 @@ ViewPicture segments(const TexelViewSubject& in) {
   return view;
 }
 
-// With rays for the texels that are visible.
+// Traces rays for the visible texels.
 ViewPicture queryErrors(const TexelViewSubject& in) {
   std::vector<float> errors(in.light.texels().size());
   const SurfaceDepths& depths = in.light.depths();

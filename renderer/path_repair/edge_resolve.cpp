@@ -14,14 +14,14 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kSamples = 8;  // rays for each pixel at an edge
-// Rays of a frame: a few hundredths of a second.
+constexpr int kSamples = 8;  // rays per pixel at an edge
+// Maximum number of rays per frame: a few hundredths of a second.
 constexpr size_t kRaysAFrame = size_t{1} << 17;
-// While something moves: a few thousandths.
+// The same while something moves: a few thousandths of a second.
 constexpr size_t kRaysMoving = size_t{1} << 15;
-// Two points lie on one surface if one is off the other's plane by less than this share of their
-// distance, so that curved surfaces are not divided, and the cosine between their normals is
-// larger.
+// Two points lie on one surface if the distance of one from the plane of the other is less than
+// this share of their distance (so that curved surfaces are not divided), and the cosine between
+// their normals is larger than this.
 constexpr float kMostOffPlane = 0.2f;
 constexpr float kLeastCosine = 0.9f;
 
@@ -31,7 +31,7 @@ float offPlane(const GBufferPoint& p, const vec3& x) {
   return length > 0.0f ? std::abs(glm::dot(p.geometricNormal, way)) / length : 0.0f;
 }
 
-// Whether two pixels show different things.
+// Whether two pixels show different surfaces.
 bool differ(const GBufferView& g, int x, int y, int u, int v) {
   if (g.isHit(x, y) != g.isHit(u, v)) return true;
   if (!g.isHit(x, y)) return false;
@@ -51,8 +51,8 @@ void forEachAround(const GBufferView& g, int x, int y, F&& f) {
     }
 }
 
-// Which of the pixels around (x, y) shows best what a sample shows: of those that show the same
-// thing the nearest one. `at`: where the sample lies, in pixels from the middle of (x, y).
+// The pixel around (x, y) that matches a sample best: the nearest one that shows the same surface.
+// `at`: position of the sample, in pixels from the centre of (x, y).
 size_t bestAround(const GBufferView& g, int x, int y, const Hit& hit, const vec3& point,
                   const vec2& at) {
   constexpr float kOtherSurface = 16.0f;  // more than any distance in pixels
@@ -92,7 +92,7 @@ EdgeResolve::Changes EdgeResolve::findChanges(const FrameInputs& in, const GBuff
   std::vector<uint8_t> isMoved(in.scene.objects.size(), 0);
   for (const uint32_t o : in.changes.movedObjects) isMoved[o] = 1;
   const auto width = static_cast<size_t>(g.width), height = static_cast<size_t>(g.height);
-  // Materials may cut other holes.
+  // The holes of alpha masks may have changed.
   const bool isKnown = keys_.size() == width * height && !in.changes.materials;
   keys_.resize(width * height);
   Changes out{std::vector<uint8_t>(width * height, 0), std::vector<uint8_t>(height, 0)};
@@ -124,7 +124,7 @@ EdgeResolve::Changes EdgeResolve::findChanges(const FrameInputs& in, const GBuff
   return out;
 }
 
-// Edges whose surroundings show the same keep their samples.
+// Edges with unchanged surroundings keep their samples.
 void EdgeResolve::findEdges(const FrameInputs& in) {
   const GBufferView g = in.backend.hostGBuffer();
   const Changes changes = findChanges(in, g);

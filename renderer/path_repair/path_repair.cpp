@@ -12,11 +12,12 @@
 namespace lamplighter {
 namespace {
 
-// Seeds of the halves, other than those of pictures of the method `reference`.
+// Seeds of the halves, different from those of pictures of the method `reference`.
 constexpr uint32_t kRepairSet = 0x4e9a1;
 uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0, kRepairSet); }
 
-// The first paths of a pixel end nowhere, so that they can be traced before there is known light.
+// The first paths of a pixel do not end at known light, so that they can be traced before it
+// exists.
 constexpr int kWholePaths = 16;
 // Relative error above which a preview is traced.
 constexpr float kLeastError = 0.05f;
@@ -106,8 +107,8 @@ void PathRepair::takePicture(const std::shared_ptr<RadianceImage>& live, bool is
   if (row_ == 0 && whole_.paths > 0 && whole_.paths % 2 == 0) beginFilter();
 }
 
-// Where the sky or a lamp is seen, rays find what share of the pixel it has, and paths the rest.
-// Not again where the first rays met nothing else.
+// Where the sky or a lamp is visible, rays find its share of the pixel, and paths compute the rest.
+// Not repeated where the first rays hit nothing else.
 bool PathRepair::hasSeenLight(int x, int y, size_t half, uint32_t sample) const {
   const auto i = static_cast<size_t>(y * view_.width + x);
   return guides_.isAtLight(x, y) && (sample == 0 || hasLightAlone_[half][i] == 0);
@@ -235,8 +236,8 @@ int PathRepair::tracePaths(const FrameInputs& in, const Options& options,
   return rows;
 }
 
-// What known light lacks is estimated first, so that it can be taken from whole paths: then these
-// are an estimate of the same as those that end.
+// The error of known light is estimated first and subtracted from the complete paths: then these
+// estimate the same value as paths that end at known light.
 void PathRepair::beginFilter() {
   if (ended_.paths > 0 && !lacking_) {
     filter_ = std::make_unique<ResidualFilter>(guides_, live_->pixels(), missing_,
@@ -244,7 +245,7 @@ void PathRepair::beginFilter() {
     return;
   }
   if (lacking_) {
-    // Weighed by their noise: paths that end may have far less.
+    // Weighted by their noise: paths that end at known light may have far less.
     const double noise = whole_.noise();
     all_ = whole_;
     all_.subtract(*lacking_);

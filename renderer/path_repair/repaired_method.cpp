@@ -54,9 +54,9 @@ PathTracerOptions pathsOf(const FrameInputs& in) {
           read.leastRoughness};
 }
 
-// A picture that will settle in fewer frames is not repaired before that.
+// A picture that will settle in fewer frames than this is not repaired before it has settled.
 constexpr int kManyFrames = 20;
-// Rows of paths in a frame when more are not urgent.
+// Rows of paths per frame if paths are not urgent.
 constexpr int kSlowRows = 16;
 
 class RepairedMethod final : public GiMethod {
@@ -66,7 +66,7 @@ class RepairedMethod final : public GiMethod {
   GiOutput render(const FrameInputs& in) override {
     const bool mayRepair = in.services.budget().refineUpdates > 0 && in.part == LightPart::all;
     const int wanted = mayRepair ? repairParameters().read(in.settings).repair : 0;
-    // The halves have as many paths each.
+    // Both halves have the same number of paths.
     const PathRepair::Options options{wanted / 2 * 2, pathsOf(in)};
     const bool isStill = in.changes.none() && in.view == view_;
     const bool skipsMethod = isStill && mayRepairAlone(in, options.paths);
@@ -103,8 +103,8 @@ class RepairedMethod final : public GiMethod {
   Inspection inspect() const override { return method_->inspect(); }
 
  private:
-  // A picture that is repaired is not refined with light samples, nor with finer shadow maps: paths
-  // tell what is seen sooner.
+  // A repaired picture is not refined with light samples or finer shadow maps, because paths show
+  // the correct light sooner.
   GiOutput renderMethod(const FrameInputs& in, bool isRepaired) {
     if (!isRepaired) return method_->render(in);
     Settings settings = in.settings;
@@ -114,13 +114,14 @@ class RepairedMethod final : public GiMethod {
                             in.frame, in.stopwatch, in.stageTimes, in.lightOnly, in.part});
   }
 
-  // What a frame without the method shows may depend on everything but the budget.
+  // The picture of a frame without the method may depend on everything except the budget.
   static Settings withoutBudget(Settings settings) {
     settings.reset(kUpdates);
     return settings;
   }
 
-  // After an edit, and in a new scene, the method gets another frame at once: it has mirrors.
+  // After an edit, and in a new scene, the method gets another frame at once, which shows glossy
+  // reflections.
   void keep(const FrameInputs& in, bool isStill, const GiOutput& out) {
     last_ = out.settled ? GiOutput() : out;
     settings_ = withoutBudget(in.settings);
@@ -129,7 +130,7 @@ class RepairedMethod final : public GiMethod {
     mayBeSkipped_ = isStill;
   }
 
-  // Whether this frame may leave the picture as the method drew it last, and only trace paths.
+  // Whether this frame may keep the last picture of the method and only trace paths.
   bool mayRepairAlone(const FrameInputs& in, int paths) const {
     return mayBeSkipped_ && framesAlone_ < in.services.budget().previewFrames && last_.radiance &&
            mayPreview(in, last_) && repair_.isUrgent(paths) && isLightOnly_ == in.lightOnly &&
@@ -150,7 +151,8 @@ class RepairedMethod final : public GiMethod {
     return out;
   }
 
-  // An edit that settles at once, of the brightness of a light, is shown without waiting for paths.
+  // An edit that settles at once, such as of the brightness of a light, is shown without waiting
+  // for paths.
   void showFirst(GiOutput& out) {
     repair_.restart();
     out.refined = false;
@@ -171,7 +173,7 @@ class RepairedMethod final : public GiMethod {
            (repair_.hasBegun() || out.stats.framesUntilSettled >= kManyFrames);
   }
 
-  // When more paths are not urgent, few rows are traced, so that the picture settles. If they are,
+  // If paths are not urgent, few rows are traced, so that the picture settles. If they are urgent,
   // they are traced in frames without the method.
   void preview(const FrameInputs& in, PathRepair::Options options, bool isAlone, GiOutput& out,
                RepairStats& stats) {
@@ -186,8 +188,8 @@ class RepairedMethod final : public GiMethod {
     stats = {repair_.paths(), options.paths, stats.rays + repair_.takeRays()};
   }
 
-  // Smooth edges of a picture that has not settled, while the view does not change; of a new scene
-  // at once, because its first frame takes long anyway.
+  // Antialiases edges of a picture that has not settled, while the view does not change; in a new
+  // scene at once, because its first frame takes long anyway.
   void resolveEdges(const FrameInputs& in, bool isWanted, GiOutput& out, RepairStats& stats) {
     const bool isSame = in.view == view_ && !in.changes.rebuilt && !in.changes.objects &&
                         in.changes.switchedObjects.empty();
@@ -205,8 +207,8 @@ class RepairedMethod final : public GiMethod {
   PathRepair repair_;
   EdgeResolve edges_;
   View view_;  // of the last frame
-  // The last output of the method, with smooth edges, and what it is of; whether it may be shown
-  // again, and by how many frames it was.
+  // The last output of the method, with antialiased edges, and its input; whether it may be shown
+  // again, and in how many frames it was.
   GiOutput last_;
   Settings settings_;
   bool isLightOnly_ = false, mayBeSkipped_ = false;

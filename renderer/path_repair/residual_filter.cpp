@@ -9,8 +9,8 @@ namespace lamplighter {
 namespace {
 
 constexpr int kBands = 6;
-// Rounds of bounds on single bright pixels, and the largest step of the means that they are
-// compared with.
+// Number of passes that bound single bright pixels, and the largest step of the means with which
+// they are compared.
 constexpr int kTamings = 2, kTamingStep = 8;
 // Differences between the halves are bounded to this multiple of the usual difference around the
 // pixel, and residuals to a multiple of the usual residual; the latter bound grows with the number
@@ -59,7 +59,7 @@ constexpr float kAlone = 0.1f, kSureAlone = 2.0f;
 // Approximate number of paths of all pixels of their window together.
 constexpr float kWindowSamples = 600.0f;
 constexpr int kLeastRadius = 2, kMostRadius = 8;  // of the window [pixels]
-// With fewer paths, these pixels are rather scaled as those around them.
+// With fewer paths, these pixels are scaled like the surrounding ones.
 constexpr float kWindowPaths = 32.0f;
 
 float squareOf(const vec3& v) { return glm::dot(v, v); }
@@ -75,9 +75,9 @@ float sureness(const BandPowers& p) {
   return std::clamp((p.agreement - kByChance * std::sqrt(p.share)) / kAgreement, 0.0f, 1.0f);
 }
 
-// How much of a band of the picture the paths find missing, as far as that is no noise: the slope
-// of the residual over the picture, by least squares over the pixels around, at least -1. If the
-// picture has a pattern of its own there, it is -1.
+// The slope of the residual over the picture in a band, by least squares over the surrounding
+// pixels, as far as it is not noise; at least -1. It is -1 if the picture has a pattern that the
+// paths do not have.
 float slopeOverPicture(const BandPowers& p, float noise) {
   constexpr float kMost = 0.5f;
   const float square = p.withPicture * p.withPicture;
@@ -115,7 +115,7 @@ ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, co
   for (int round = 0; round < kTamings; ++round) planTaming();
   steps_.push_back([this](Rows rows) { beginBands(rows); });
   for (int band = 0; band <= kBands; ++band) planBand(band);
-  // What known light lacks has no edges.
+  // The error of known light has no edges.
   if (estimate_ == Estimate::residual) return;
   steps_.push_back([this](Rows rows) { addWindow(rows); });
   if (paths_.knowsVariance()) planPixels();
@@ -123,7 +123,7 @@ ResidualFilter::ResidualFilter(const RepairGuides& guides, const Image& live, co
 
 ResidualFilter::~ResidualFilter() = default;
 
-// What is subtracted from the estimate.
+// The value that is subtracted from the estimate.
 vec3 ResidualFilter::known(size_t pixel) const {
   return estimate_ == Estimate::truth ? live_.pixels[pixel] : vec3(0.0f);
 }
@@ -213,8 +213,8 @@ void ResidualFilter::begin(Rows rows) {
   });
 }
 
-// In sums over the picture a pixel counts by the inverse of its power, so that the brightest do not
-// decide alone.
+// In sums over the picture a pixel is weighted by the inverse of its power, so that the brightest
+// pixels do not dominate.
 double ResidualFilter::weight(size_t pixel) const {
   const double dark = kDark * light_ / static_cast<double>(live_.pixels.size());
   const double all = static_cast<double>(squareOf(live_.pixels[pixel])) + dark;
@@ -240,8 +240,8 @@ void ResidualFilter::addBorders(Rows rows) {
   });
 }
 
-// Of the borders around a pixel: bars of a window that are thinner than a pixel show in both halves
-// alike.
+// The common share of power of the border pixels around a pixel: bars of a window that are thinner
+// than a pixel are visible in both halves.
 float ResidualFilter::borderShare(size_t pixel) const {
   const auto width = static_cast<size_t>(guides_.width);
   const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
@@ -266,8 +266,8 @@ void ResidualFilter::takeBounds(Rows rows) {
   });
 }
 
-// Bounds what is far brighter in one half than in the other, and what is far brighter than all
-// around it: single bright paths.
+// Bounds values that are far brighter in one half than in the other, or far brighter than their
+// surroundings: single bright paths.
 void ResidualFilter::tame(Rows rows) {
   const float mostResidual = kMostResidual + paths_.weight / kPathsABound;
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
@@ -304,7 +304,7 @@ void ResidualFilter::beginBands(Rows rows) {
   nextBounds_ = {};
 }
 
-// What the last means took away.
+// The detail that the last means removed.
 void ResidualFilter::takeDetail(int band, Rows rows) {
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3 scale = guides_.albedo[i] / sums_[i].albedo;
@@ -320,7 +320,7 @@ void ResidualFilter::takeDetail(int band, Rows rows) {
   weighBand(band, rows);
 }
 
-// What is left: the mean over the whole surroundings, with all that was bounded.
+// The remaining part: the mean over the whole surroundings, with the light above the bounds.
 void ResidualFilter::takeBase(Rows rows) {
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
     const vec3 excess = guides_.albedo[i] / sums_[i].albedo * sums_[i].excess;
@@ -358,7 +358,7 @@ void ResidualFilter::addBand(int band, Rows rows) {
   const float variances = doubt.variances * glm::mix(1.0f, kWrongVariances, wrong);
   const float leastPaths = glm::mix(kLeastPaths, kWrongPaths, wrong);
   if (band == kFineBands) windowVariances_ = variances;
-  // Of a path, by the square of the picture.
+  // Relative noise of a path: its variance divided by the square of the picture.
   const auto usualNoise =
       surfaceLight_ > 0.0 ? static_cast<float>(surfaceNoise_ / surfaceLight_) : 0.0f;
   forSurfaces(guides_, rows, [&](int, int, size_t i) {
@@ -379,7 +379,7 @@ void ResidualFilter::addBand(int band, Rows rows) {
   });
 }
 
-// Of pixels with few neighbours that show the same surface, to 1.
+// From 0 to 1: whether a pixel has few neighbours that show the same surface.
 float ResidualFilter::aloneness(size_t pixel) const {
   return std::clamp(fineVariance_[pixel] / kAlone - 1.0f, 0.0f, 1.0f);
 }
@@ -400,9 +400,9 @@ void ResidualFilter::addWindow(Rows rows) {
   });
 }
 
-// What the bands leave out of single pixels: edges of surfaces and of shadows that the picture has
-// at the wrong place. It is shown where it exceeds by far the noise of the paths of the pixel and,
-// because paths that find nothing show none, of those around it.
+// Adds the residual that the bands leave out at single pixels: edges of surfaces and shadows that
+// the picture has at the wrong place. It is shown where it far exceeds the noise of the paths of
+// the pixel and of the surrounding ones, because paths that find no light show no noise.
 void ResidualFilter::addPixels(Rows rows) {
   const float sure = kSurePixel * (1.0f + kFewGroups / paths_.groups);
   forSurfaces(guides_, rows, [&](int, int, size_t i) {

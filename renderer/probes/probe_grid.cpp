@@ -19,15 +19,16 @@ constexpr int kSteps = 6;
 // Directions are up to 0.3 rad from the nearest ray: a plane at the distance of the padding is met
 // at up to this factor of it.
 constexpr float kMargin = 1.05f;
-// Of the spacing: moved places stay so near to their node along each axis.
+// Maximum displacement of a place from its node along each axis, as a share of the spacing.
 constexpr float kReach = 0.5f;
 constexpr size_t kMostWallsOfNode = 3;  // around a place
 constexpr float kAlike = 0.7f;          // normals whose cosine is larger are those of one wall
-// Less of the rays meets nothing on the other side of a surface: it is that of the level.
+// If a smaller share of the rays hits nothing on the other side of a surface, that side belongs to
+// the level.
 constexpr float kLessOpen = 0.1f;
-// Surfaces that are so near to each other, relative to their distance, are in the same place.
+// Surfaces at distances that differ by less than this share count as one.
 constexpr float kSamePlace = 1e-4f;
-constexpr float kGrowth = 1.1f;  // of the spacing, until the bound is kept
+constexpr float kGrowth = 1.1f;  // growth of the spacing until the limit is met
 // Multiples of the spacing beyond this are not exact in a float.
 constexpr float kFurthestNode = 1e6f;
 
@@ -46,10 +47,10 @@ std::array<vec3, kRays> evenDirections() {
   return out;
 }
 
-// What the rays from a place meet.
+// The hits of the rays from a place.
 struct Surroundings {
   size_t fronts = 0, backs = 0;
-  size_t turned = 0;  // backs of any surface, whether a camera sees them or not
+  size_t turned = 0;  // back faces of any surface, visible from outside or not
   float nearestFront = std::numeric_limits<float>::infinity();
   float nearestBack = std::numeric_limits<float>::infinity();
   // Surfaces nearer than the padding, the nearest one first: normal on the side of the place,
@@ -79,7 +80,7 @@ class Surveyor {
       : scene_(scene), rays_(rays), directions_(evenDirections()) {}
 
   const Bounds& level() const { return scene_.bounds; }
-  // Rays start a little before the place, so that they meet a surface on which it lies.
+  // Rays start slightly before the place, so that they hit a surface on which it lies.
   Surroundings around(const vec3& place, float padding) const {
     const float before = std::max(rayEpsilon(place), 0.01f * padding);
     Surroundings found;
@@ -151,9 +152,9 @@ class Placement {
   static Probe probeAt(const vec3& place, ProbeState state, const Surroundings& there) {
     return {place, state, there.open(), there.behind()};
   }
-  // A little more than the padding, so that rounding does not undo it.
+  // Slightly more than the padding, because of rounding.
   float wanted() const { return 1.01f * kMargin * padding_; }
-  // Above the level things move, but not beside or below it.
+  // Objects may move above the level, but not beside or below it.
   bool isBeside(const vec3& place) const {
     const Bounds& level = surveyor_.level();
     const vec3 low = place - level.min, high = level.max - place;
@@ -173,7 +174,7 @@ class Placement {
   }
 
   // Of up to three near surfaces that meet at an angle, as in a corner, all combinations of sides
-  // are tried, own sides first. Another one is taken if there is more of the level around it.
+  // are tried, own sides first. Another one is used if more of the level is visible from it.
   std::optional<Probe> besideWalls(const Surroundings& here) const {
     std::vector<Surroundings::Plane> walls;
     for (const Surroundings::Plane& plane : here.planes)

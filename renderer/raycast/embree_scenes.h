@@ -18,10 +18,10 @@ struct EmbreeError {
 
 // One geometry per object, with the object's index as its id, in two Embree scenes. The first has
 // one tree over all triangles, built with medium quality (surface area heuristic); it accepts
-// packets flagged as coherent. The second is small: a tree of trees for the objects that moved
-// or came since, which is updated quickly. If the first scene can be rebuilt quickly, objects that
-// moved or went are removed from it; otherwise a filter ignores them there. The hits do not depend
-// on the scene in which an object is.
+// packets flagged as coherent. The second is small: a tree of trees for objects that moved or were
+// added since then, which is updated quickly. If the first scene can be rebuilt quickly, moved and
+// removed objects are removed from it; otherwise a filter ignores them there. The hits do not
+// depend on the scene in which an object is.
 //
 // Embree 3.13 does not return from coherent packets in a tree of trees.
 class EmbreeScenes {
@@ -75,11 +75,11 @@ class EmbreeScenes {
   RTCScene still_ = nullptr, moving_ = nullptr;
   // By object.
   std::vector<Place> places_;
-  std::vector<InStill> inStill_;  // how still_ has it, perhaps where it was
+  std::vector<InStill> inStill_;  // its state in still_, possibly at an old position
   std::vector<Passing> passing_;  // when it was added
   std::vector<uint32_t> movers_;
   Bounds movingBounds_;
-  size_t toIgnore_ = 0;          // objects of still_ that are not there any more
+  size_t toIgnore_ = 0;          // objects of still_ that no longer exist there
   bool isQuicklyBuilt_ = false;  // still_
 };
 

@@ -43,8 +43,8 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // Call this after the scene was updated. Refits moved objects, adds those that came and removes
-  // those that went; `rebuilt` rebuilds everything.
+  // Call this after the scene was updated. Refits moved objects, inserts added ones and deletes
+  // removed ones; `rebuilt` rebuilds everything.
   void update(const RenderSceneChanges& changes);
 
   Hit intersect(const Ray& ray, Surfaces which = Surfaces::all) const;

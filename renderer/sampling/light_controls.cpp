@@ -30,7 +30,7 @@ LightControls::LightControls(const RenderScene& scene, const LightSet& lights)
     controls[static_cast<size_t>(control)].flux += e.referenceFlux;
     ofEmitter[ids[i]] = static_cast<uint32_t>(control);
   }
-  // A sky without a scene is seen, too.
+  // A sky is visible without a scene, too.
   if (ofSky != kNone || scene.nominalSky.isBlack()) return;
   ofSky = static_cast<int>(controls.size());
   const float reference = referenceBrightness(scene.nominalSky.factor());

@@ -19,8 +19,8 @@ constexpr size_t kPathsPerVpl = 16;
 // How much more urgent a path is that an object has moved into.
 constexpr float kAstrayFirst = 64.0f;
 
-// The part of the direct samples that is shared by flux alone: points on lamps light also what is
-// between the points of the view.
+// The part of the direct samples that is distributed by flux only, because lamps also light
+// surfaces between the points of the view.
 constexpr double kFluxShare = 0.25;
 
 bool sameHit(const Hit& a, const Hit& b) {
@@ -170,7 +170,7 @@ void LightPaths::findTouched(const PathWalker& walker, bool takesMaterials,
   }
 }
 
-// Updates the reflectance at the path's vertices; the vertices stay where they are.
+// Updates the reflectance at the path's vertices; the vertices do not move.
 void LightPaths::takeMaterials(const PathWalker& walker, const Light& light, Path& p) {
   std::vector<PathStep>& steps = p.path.steps;
   for (size_t s = 0; s < steps.size() && steps[s].hit; ++s) {
@@ -186,8 +186,8 @@ void LightPaths::takeMaterials(const PathWalker& walker, const Light& light, Pat
   }
 }
 
-// Selects the paths to process: those that an edit affects and, at rest, some that are not their
-// own.
+// Selects the paths to process: those that an edit affects and, at rest, some that are not those of
+// a newly opened scene.
 std::vector<LightPaths::Task> LightPaths::tasksOf(bool isResting, int mostPaths) {
   std::vector<Task> stale, strange;
   size_t count = 0, order = 0;
@@ -213,7 +213,7 @@ std::vector<LightPaths::Task> LightPaths::tasksOf(bool isResting, int mostPaths)
                      });
     tasks.resize(most);
   };
-  // With many candidates a frame goes on with a part of them.
+  // With many candidates a frame continues with a part of them.
   const auto candidates = static_cast<size_t>(std::max(counts_.candidates, 1));
   const size_t most = mostPaths > 0 ? static_cast<size_t>(mostPaths)
                       : candidates > kCandidatesAFrame
@@ -229,8 +229,8 @@ void LightPaths::lookAgain(const PathWalker& walker, bool isResting, int mostPat
   std::vector<Task> tasks = tasksOf(isResting, mostPaths);
   tbb::parallel_for(size_t{0}, tasks.size(),
                     [&](size_t i) { lookAgain(walker, isResting, tasks[i]); });
-  // If a light went far, its paths become its own paths again. Redrawn paths would be replaced by
-  // those at rest, and need new shadow maps twice.
+  // If a light moved far, its paths become those of a newly opened scene again. Redrawn paths would
+  // be replaced by those at rest, and need new shadow maps twice.
   for (const Light& light : lights_) {
     const auto isOf = [&](const Task& t) { return t.light == &light && t.follows; };
     const auto following = std::count_if(tasks.begin(), tasks.end(), isOf);
@@ -263,7 +263,7 @@ void LightPaths::lookAgain(const PathWalker& walker, bool isResting, Task& task)
   if (isResting && (p.hasMoved || !p.isOwn)) {
     walkOwn(walker, task);
   } else {
-    // First process what moved into the old path, then move the path with its light.
+    // First process objects that moved into the old path, then move the path with its light.
     for (size_t s = std::min(p.touched, p.broken); s < p.path.steps.size(); ++s) {
       const PathStep& step = p.path.steps[s];
       if (s < p.broken) {

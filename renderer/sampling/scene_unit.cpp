@@ -78,7 +78,7 @@ float spacingFrom(const RenderScene& scene, const RayCaster& rays, uint32_t seed
 float unitFor(const Spacing& spacing) {
   const float most = std::max(spacing.ofTriangles, spacing.ofArea);
   float least = std::min(spacing.ofTriangles, spacing.ofArea);
-  if (!(least > 0.0f)) least = most;  // only one is known
+  if (!(least > 0.0f)) least = most;  // only one spacing is known
   float unit = 1.0f;
   if (!(least > 0.0f)) return unit;
   while (least >= kMostSpacing * unit && unit < kLargestUnit) unit *= kLargerUnit;

@@ -1,4 +1,4 @@
-// Charts and texel layouts of the objects of a scene, found once for all instances of a mesh.
+// Charts and texel layouts of the objects of a scene, computed once for all instances of a mesh.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace lamplighter {
 
 // The layout of one object's mesh, and the object's place in the world.
 struct ObjectAtlas {
-  std::shared_ptr<const MeshAtlas> atlas;  // in the own space of the object; null: it has none
+  std::shared_ptr<const MeshAtlas> atlas;  // in object space; null: the object has none
   OwnSpace space;
 
   vec3 toOwn(const vec3& world) const {
@@ -32,16 +32,16 @@ struct ObjectAtlas {
 // They are kept in memory while an object uses them, and on disk.
 class ObjectCharts {
  public:
-  // Of all files; the oldest are deleted first.
+  // Size limit of all files together; the oldest files are deleted first.
   static constexpr uintmax_t kMostBytes = uintmax_t{256} << 20;
 
   // An empty path: nothing is kept on disk.
   explicit ObjectCharts(std::filesystem::path folder) : files_(std::move(folder), {"atl", 1}) {}
 
-  // To be called with all changes of the scene between calls of find().
+  // Call with all changes of the scene between calls of find().
   void outdate(const RenderSceneChanges& changes) { changes_.merge(changes); }
   // By object. Missing layouts are loaded or computed, in parallel. Area lights, empty objects, and
-  // objects that their node flattens, have none. Valid until the next call.
+  // objects with a scale of 0 have none. Valid until the next call.
   std::span<const ObjectAtlas> find(const RenderScene& scene, float texelsPerMetre);
 
   size_t computed() const { return computed_; }  // layouts since construction

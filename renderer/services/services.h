@@ -1,5 +1,5 @@
-// What methods share: each service is made when a method asks for it for the first time, kept
-// between frames, and brought up to date from the changes of the scene.
+// Services that methods share: each is created when a method requests it for the first time, kept
+// between frames, and updated from the changes of the scene.
 #pragma once
 
 #include <filesystem>
@@ -21,20 +21,22 @@ inline constexpr Service kServices[] = {Service::rays, Service::movers, Service:
                                         Service::charts};
 const char* nameOf(Service service);  // "rays"
 
-// How much a frame may do besides the budgets in a method's parameters.
+// Work limits of a frame in addition to the budgets in the parameters of a method.
 struct FrameBudget {
   // If true, slow precomputations may finish some frames later. If false, the frame waits for them,
   // so that every run gives the same frames.
   bool inBackground = false;
-  // By how many light samples, or rows of paths, this frame may improve a settled picture; 0: none.
+  // Number of light samples, or rows of paths, by which this frame may improve a settled picture;
+  // 0: none.
   int refineUpdates = 0;
-  // How many rows of paths it may trace to repair a picture before it has settled; 0: none.
+  // Number of rows of paths that this frame may trace to repair a picture before it has settled; 0:
+  // none.
   int previewUpdates = 0;
   // Number of frames after a frame of the method that may only trace these paths, as long as the
   // picture is far from settled and has a large error.
   int previewFrames = 0;
   // The work on light on surfaces (elements, links or a field), as a share of the usual work of a
-  // frame. Not given: the value of the parameter `updates` divided by its default.
+  // frame. Not set: the value of the parameter `updates` divided by its default.
   std::optional<float> surfaceWork = {};
 };
 
@@ -53,15 +55,15 @@ class Services {
   const std::filesystem::path& cacheFolder() const { return cacheFolder_; }
 
   const RayCaster& rays();
-  // The objects that moved or changed their shape since the last frame in which a method asked; the
-  // first time every object.
+  // The objects that moved or changed their shape since the last frame in which a method requested
+  // them; the first time all objects.
   std::span<const MoverFinder::Mover> movers();
   // Points on all surfaces, uniform by area.
   const SurfaceSampler& surfaces();
   // By object: its charts and texel layout in object space. Valid until the next call.
   std::span<const ObjectAtlas> charts(float texelsPerMetre);
 
-  // Whether a method has asked for the service since construction.
+  // Whether a method has requested the service since construction.
   bool hasAsked(Service service) const { return (asked_ >> static_cast<int>(service) & 1u) != 0; }
 
  private:

@@ -7,8 +7,8 @@ namespace {
 
 constexpr uint16_t kOpen = 0xffffu;
 
-// A value in the middle has the largest tolerance to both sides. That of open ways is kept apart
-// from depths.
+// A value in the middle has the largest tolerance on both sides. The value for open directions
+// differs from all depths.
 uint16_t valueOf(const DepthInterval& i) {
   return i.least == kOpen ? kOpen : static_cast<uint16_t>(i.least + (i.most - i.least) / 2);
 }

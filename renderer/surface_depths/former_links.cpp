@@ -13,8 +13,8 @@ void FormerLinks::compareWith(const TexelTree& tree, TexelMoves moves) {
   std::vector<uint8_t> isKept(tree_.order().size(), 0);  // by former texel
   for (const uint32_t t : moves_.formerTexel)
     if (t != TexelMoves::kNew) isKept[t] = 1;
-  // Nodes of kept texels alone have them in the same order, so the first of them and their number
-  // tell which node it is. `formerOf`: of a place in the order of the tree; none: changed.
+  // Nodes with only kept texels have them in the same order, so the first texel and their number
+  // identify a node. `formerOf`: old texel at an index of the order of the tree; none: changed.
   const auto forEachKept = [](const TexelTree& t, const auto& formerOf, const auto& visit) {
     std::vector<uint32_t> kept{0};
     for (const uint32_t texel : t.order())
@@ -39,7 +39,7 @@ void FormerLinks::compareWith(const TexelTree& tree, TexelMoves moves) {
         formerNode_[n] = found->second;
         isGone[found->second] = 0;
       });
-  // What is above a node that is gone is gone as well.
+  // Nodes above a removed node are removed as well.
   goneAbove_.assign(tree_.size(), TexelMoves::kNew);
   gone_.clear();
   for (uint32_t n = 0; n < tree_.size(); ++n) {
@@ -76,7 +76,7 @@ FormerLinks::OfTexel::Known FormerLinks::OfTexel::at(uint32_t n, const TexelTree
     (isReached ? knownUntil_ : unknownUntil_) = node.skip;
     if (!isReached) return Known::nothing;
   }
-  // All segments to the node are within its radius of the one to its centre.
+  // All segments to the node lie within its radius around the segment to its centre.
   const vec3 from = spot.rayOrigin();
   const Ray ray{from, 0.0f, node.centre - from, 1.0f};
   const bool mayBeBlocked = std::ranges::any_of(all_->moves_.boxes, [&](const Bounds& b) {
@@ -85,7 +85,7 @@ FormerLinks::OfTexel::Known FormerLinks::OfTexel::at(uint32_t n, const TexelTree
   return mayBeBlocked ? Known::ends : Known::links;
 }
 
-// Of the former nodes from `former` to before `end`.
+// The links of old nodes from `former` to before `end`.
 std::span<const TexelLink> FormerLinks::OfTexel::linksOf(uint32_t former, uint32_t end) const {
   const auto isBefore = [](const TexelLink& link, uint32_t n) { return link.node < n; };
   const auto first = std::lower_bound(links_.begin(), links_.end(), former, isBefore);
@@ -95,7 +95,7 @@ std::span<const TexelLink> FormerLinks::OfTexel::linksOf(uint32_t former, uint32
 void FormerLinks::OfTexel::append(uint32_t n, std::vector<TexelLink>& out) const {
   const uint32_t former = all_->formerNode_[n];
   for (TexelLink link : linksOf(former, all_->tree_[former].skip)) {
-    link.node = link.node - former + n;  // the nodes below are the same
+    link.node = link.node - former + n;  // the nodes below have the same order
     out.push_back(link);
   }
 }

@@ -12,11 +12,12 @@
 namespace lamplighter {
 namespace {
 
-// Pixels of a unit of work.
+// Number of pixels per unit of work.
 constexpr uint32_t kBlock = 64;
-// Surfaces that are searched for one that faces the texel.
+// Maximum number of surfaces that are searched for one that faces the texel.
 constexpr int kMostSurfaces = 6;
-// Directions of pixels that reach above the surface are bent up to this sine of the angle to it.
+// Directions of pixels that are partly above the surface are raised to this sine of the angle to
+// it.
 constexpr float kLeastSine = 0.02f;
 
 // The direction in which a texel looks through a pixel; 0 if the pixel is below its surface.
@@ -60,7 +61,7 @@ void SurfaceDepths::restart(const RenderScene& scene, const TexelSet& texels,
   }
 }
 
-// The intervals of one pixel of all texels of a run. Returns the number of rays.
+// Computes the intervals of one pixel for all texels of a run. Returns the number of rays.
 uint64_t SurfaceDepths::trace(const RenderScene& scene, const RayCaster& rays,
                               const TexelSet& texels, const Run& run, uint32_t pixel,
                               std::vector<DepthInterval>& out) const {
@@ -166,7 +167,7 @@ bool SurfaceDepths::restore(std::span<const uint8_t> bytes) {
   for (Run& run : runs) {
     run.starts.resize(pixels + 1);
     if (!take(bytes, run.starts.data(), run.starts.size()) || run.starts[0] != 0) return false;
-    // Each pixel has a segment at least, and at most one for each texel.
+    // Each pixel has at least one segment, and at most one per texel.
     for (uint32_t q = 0; q < pixels; ++q)
       if (run.starts[q + 1] <= run.starts[q] || run.starts[q + 1] - run.starts[q] > run.count)
         return false;

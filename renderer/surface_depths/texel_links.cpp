@@ -43,7 +43,7 @@ void TexelLinks::restart(const TexelSet& texels, float error) {
 
 void TexelLinks::restart(const TexelTree& before, const TexelSet& texels, const TexelTree& tree,
                          TexelMoves moves) {
-  // Links that were not all found are no use; those before them are.
+  // Incomplete links cannot be used; the older ones can.
   FormerLinks former =
       isDone() ? FormerLinks(before, std::move(table_), error_) : std::exchange(former_, {});
   restart(texels, error_);
@@ -104,7 +104,7 @@ void TexelLinks::goOn(const TexelSet& texels, const TexelTree& tree, const Visib
   tested_ = tested;
   known_ = ofKnown;
   for (size_t i = 0; i < count; ++i) {
-    // More than all of the hemisphere is seen where surfaces coincide.
+    // The visible shares exceed 1 if surfaces coincide.
     float sum = 0.0f;
     for (const TexelLink& link : found[i]) sum += link.weight;
     scales_.push_back(sum > 1.0f ? 1.0f / sum : 1.0f);

@@ -15,8 +15,8 @@ namespace {
 // Expected memory of a texel: for each pixel of its depth map a segment of three bytes per eight
 // texels, and this number of links.
 constexpr size_t kSegmentBytes = 3, kTexelsASegment = 8, kLinksATexel = 500;
-// Texels whose links are found at a time, the work of one in rays besides its tests, and tests of
-// known answer that take as long as a ray.
+// Number of texels whose links are computed at a time; work per texel in addition to its tests
+// [rays]; number of reused tests that take as long as a ray.
 constexpr size_t kLinkedAtATime = 64;
 constexpr uint64_t kRaysALinkedTexel = 64, kKnownARay = 8;
 
@@ -111,7 +111,7 @@ void TexelRadiosity::findDepths(const RenderScene& scene, Services& services, ui
   const DepthCache files(services.cacheFolder());
   if (!hasLookedOnDisk_ && !services.cacheFolder().empty()) {
     depthKey_ = DepthCache::keyOf(scene, ground_.set(), options_.map);
-    // What is on disk need not be saved.
+    // Depths from disk need not be saved.
     if (depthKey_ && files.load(*depthKey_, depths_)) depthKey_.reset();
   }
   hasLookedOnDisk_ = true;
@@ -136,7 +136,7 @@ void TexelRadiosity::findSky(const RenderScene& scene, const RayCaster& rays, ui
   isLit_ = isLit_ && !light_.changed();
 }
 
-// Jacobi iterations: what texels reflect is averaged upwards, then gathered along the links.
+// Jacobi iterations: radiosity is averaged up the tree, then gathered along the links.
 void TexelRadiosity::bounce() {
   std::vector<vec3> direct(ground_.set().size()), byNode;
   light_.sum(lights_, direct);

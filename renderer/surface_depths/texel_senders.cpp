@@ -5,7 +5,7 @@
 namespace lamplighter {
 namespace {
 
-// The light that the texels of one object send, while it is added up.
+// Sums of the light from the texels of one object.
 struct SentLight {
   glm::dvec3 power{0.0}, centre{0.0};
   double area = 0.0, weight = 0.0;

@@ -10,7 +10,7 @@ namespace lamplighter {
 float queryErrorOf(uint32_t texel, const RenderScene& scene, const RayCaster& rays,
                    const TexelSet& texels, const TexelTree& tree, const SurfaceDepths& depths,
                    float linkError, size_t most) {
-  std::vector<uint32_t> tests;  // texels that are asked for
+  std::vector<uint32_t> tests;  // texels to test
   walkLinks(texels[texel].spot, texel, texels, tree, linkError, [&](uint32_t node, float) {
     forEachTested(tree, tree[node], [&](uint32_t sender) { tests.push_back(sender); });
   });

@@ -43,7 +43,7 @@ TexelTree::TexelTree(const TexelSet& texels) : order_(texels.size()) {
   if (texels.size() > 0) build(texels, keys, 0, static_cast<uint32_t>(texels.size()));
 }
 
-// Returns the number of the node of these texels of order_. `keys`: in that order.
+// Builds the node of these texels of order_ and returns its number. `keys`: in that order.
 uint32_t TexelTree::build(const TexelSet& texels, const std::vector<Key>& keys, uint32_t first,
                           uint32_t count) {
   const auto number = static_cast<uint32_t>(nodes_.size());
@@ -74,7 +74,7 @@ uint32_t TexelTree::build(const TexelSet& texels, const std::vector<Key>& keys, 
     const auto begin = keys.begin() + first;
     uint32_t half = count / 2;
     if (low != high) {
-      // Where the highest bit that differs becomes 1.
+      // Split where the highest differing bit becomes 1.
       Key plane = high;
       if (low.facing != high.facing) {
         const uint32_t bit = std::bit_floor(low.facing ^ high.facing);

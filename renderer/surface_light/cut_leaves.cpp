@@ -18,7 +18,7 @@ struct Corners {
   Bounds bounds;
 };
 
-// Where the corners of an element are, lifted from the surface.
+// The corners of an element, lifted from the surface.
 Corners cornersOf(const RenderScene& scene, const SurfaceMesh& mesh, uint32_t leaf) {
   Corners out;
   const uint32_t object = mesh.objectOfLeaf(leaf);
@@ -49,7 +49,7 @@ uint64_t CutLeaves::update(const RenderScene& scene, const RayCaster& rays, cons
   if (!isNewMesh && boxes.empty()) return 0;
   std::vector<bool> isMoved(mesh.objects(), false);
   for (const uint32_t o : movedObjects) isMoved[o] = true;
-  // Objects that are far from what moved have no element near it.
+  // Objects far from the moved ones have no element near them.
   std::vector<bool> isFar(mesh.objects(), false);
   const vec3 lift(kHeight * mesh.edge());
   for (uint32_t o = 0; o < mesh.objects() && !isNewMesh; ++o) {
@@ -61,7 +61,7 @@ uint64_t CutLeaves::update(const RenderScene& scene, const RayCaster& rays, cons
   std::atomic<uint64_t> traced = 0;
   const size_t groups = (mesh.leaves() + RayCaster::kLanes - 1) / RayCaster::kLanes;
   tbb::parallel_for(size_t{0}, groups, [&](size_t group) {
-    // Rays along one side of each of eight elements that lie near each other.
+    // Rays along one side of each of eight neighbouring elements.
     std::array<std::array<Ray, RayCaster::kLanes>, 3> sides;
     for (auto& rays8 : sides)
       for (Ray& ray : rays8) ray.tFar = -1.0f;

@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-// Rays from an element to a light of which it sees a part.
+// Number of rays from an element to a partly visible light.
 constexpr uint32_t kPartialRays = 24, kPartialSet = 0x52;
 // Large elements whose corners agree are tested by some of them for shadows between the corners.
 constexpr uint32_t kProbeRays = 8;
@@ -24,7 +24,7 @@ constexpr float kLift = 0.04f;  // of rays along a surface [edges of elements]
 // Corners whose light is summed together, in registers and the nearest cache.
 constexpr size_t kCornersASum = 1024;
 
-// Elements that are tested together for what stands before them.
+// Number of elements that are tested together for occluders.
 constexpr size_t kLeavesAGroup = 32;
 
 // Number of elements that share the light of one of them until the light of each is computed: more
@@ -43,7 +43,7 @@ uint32_t leaderOf(const SurfaceMesh& mesh, uint32_t leaf, uint32_t spread) {
   return leaf - (leaf - mesh.part(mesh.objectOfLeaf(leaf)).firstLeaf) % spread;
 }
 
-// Where the light of an element is found.
+// Points at which the light of an element is computed.
 std::vector<SurfaceSpot> spotsOf(const DirectFactors::Scene& now, uint32_t leaf) {
   const uint32_t object = now.mesh.objectOfLeaf(leaf);
   std::vector<SurfaceSpot> spots;
@@ -57,7 +57,7 @@ std::vector<SurfaceSpot> spotsOf(const DirectFactors::Scene& now, uint32_t leaf)
   return spots;
 }
 
-// `spots`: of an element that is not a cluster: spotsOf().
+// `spots`: spotsOf() of an element that is not a cluster.
 bool isLarge(std::span<const SurfaceSpot> spots, bool isMixed) {
   const auto side = [&](size_t a, size_t b) {
     return (isMixed ? 1.0f : 2.0f) * glm::distance(spots[a].position, spots[b].position);
@@ -65,7 +65,8 @@ bool isLarge(std::span<const SurfaceSpot> spots, bool isMixed) {
   return std::max({side(0, 1), side(1, 2), side(2, 0)}) > kLarge;
 }
 
-// Whether nothing is between a spot of an element and one of its corners, just above the surface.
+// Whether nothing blocks the line between a spot of an element and one of its corners, just above
+// the surface.
 bool seesCorner(const DirectFactors::Scene& now, uint32_t leaf, size_t corner,
                 const SurfaceSpot& spot) {
   const uint32_t sample = now.mesh.samplesOfLeaf(leaf)[corner];
@@ -89,16 +90,16 @@ Ball ballAround(const DirectFactors::Scene& now, uint32_t leaf) {
 
 }  // namespace
 
-// What the stages of an update share.
+// Data that the stages of an update share.
 struct DirectFactors::Work {
   const Scene& now;
-  std::vector<uint8_t> isNew;  // by emitter: nothing of it is known
+  std::vector<uint8_t> isNew;  // by emitter: none of its light is known
   std::vector<EmitterFactor> emitters{};
   std::vector<std::optional<FlatLight>> flat{};
   std::atomic<size_t> computed = 0, masked = 0, open = 0, traced = 0;
 };
 
-// Finds the columns of the present emitters among those known. Returns which have none.
+// Matches the columns with the current emitters. Returns which emitters have none.
 std::vector<uint8_t> DirectFactors::matchColumns(const Scene& now, bool isNewMesh,
                                                  const std::vector<bool>& isMoved) {
   const std::vector<VplId> ids = emitterIds(now.lights);
@@ -118,7 +119,7 @@ std::vector<uint8_t> DirectFactors::matchColumns(const Scene& now, bool isNewMes
     column.isColoured = EmitterFactor(now.scene, now.lights, i, ids[i], now.seed).isColoured();
     if (e.kind == EmitterKind::punctual)
       column.light = withoutBrightness(now.scene.punctuals[e.punctual]);
-    // Most emitters keep their place.
+    // Most emitters keep their index.
     size_t old = i;
     if (old >= before.size() || before[old].id != column.id)
       old = static_cast<size_t>(std::ranges::find(before, column.id, &Column::id) - before.begin());
@@ -187,7 +188,7 @@ uint64_t DirectFactors::update(const Scene& now, bool isNewMesh,
   return work.traced;
 }
 
-// Of elements whose place is not known, or another one.
+// For elements whose position is unknown or changed.
 void DirectFactors::findBalls(const Scene& now, bool isNewMesh, const std::vector<bool>& isMoved) {
   const size_t known = isNewMesh ? 0 : balls_.size();
   balls_.resize(now.mesh.leaves(), Ball(vec3(0.0f)));
@@ -198,7 +199,7 @@ void DirectFactors::findBalls(const Scene& now, bool isNewMesh, const std::vecto
   });
 }
 
-// Marks what may differ. Elements beside each other are tested together first.
+// Marks light that may have changed. Neighbouring elements are tested together first.
 void DirectFactors::outdate(const Work& work, const std::vector<bool>& isMoved,
                             std::span<const Bounds> boxes) {
   const SurfaceMesh& mesh = work.now.mesh;
@@ -246,7 +247,7 @@ void DirectFactors::outdate(const Work& work, const std::vector<bool>& isMoved,
   });
 }
 
-// The elements whose light is found in this call: of new emitters at least the leaders.
+// The elements whose light is computed in this call; for new emitters at least the leaders.
 std::vector<uint32_t> DirectFactors::choose(const Work& work, uint64_t mostRays) {
   const SurfaceMesh& mesh = work.now.mesh;
   const auto leaves = static_cast<uint32_t>(mesh.leaves());
@@ -280,10 +281,9 @@ std::vector<uint32_t> DirectFactors::choose(const Work& work, uint64_t mostRays)
   return chosen;
 }
 
-// The light of an element on which a shadow falls: more rays, from places all over it. Each corner
-// gets the share of the light that is seen around it; of a mixed element, that is dark if no place
-// near the corner sees it. `seenRays`: how many of the rays see the light. Returns the number of
-// rays.
+// The light of a partly shadowed element: more rays, from points all over it. Each corner gets the
+// visible share of the light around it; on a mixed element the corner is dark if no point near it
+// sees the light. `seenRays`: number of unblocked rays. Returns the number of rays.
 uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t leaf, uint32_t count,
                                     std::array<vec3, 3>& corners, size_t& seenRays) {
   const Scene& now = work.now;
@@ -293,7 +293,7 @@ uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t l
   std::array<vec2, 3> at;
   for (size_t c = 0; c < 3; ++c) at[c] = {places[c].u, places[c].v};
   const vec2 middle = (at[0] + at[1] + at[2]) / 3.0f;
-  // The places are half way between the middle and the corners.
+  // The points lie half-way between the centre and the corners.
   const auto spotOf = [&](const vec3& w) {
     vec2 place(0.0f);
     for (int c = 0; c < 3; ++c) place += w[c] * (2.0f * at[static_cast<size_t>(c)] - middle);
@@ -307,7 +307,7 @@ uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t l
     vec3 w(1.0f - root, root * (1.0f - p.y), root * p.y);
     vec3 counts = w;
     if (now.isMixed[leaf] != 0) {
-      // Each corner has its own, on its side of the wall.
+      // Each corner has its own light, on its side of the wall.
       const int c = static_cast<int>(i % 3);
       counts = vec3(0.0f);
       counts[c] = 1.0f;
@@ -344,7 +344,7 @@ uint64_t DirectFactors::findPartial(const Work& work, size_t emitter, uint32_t l
   return lights.size();
 }
 
-// Finds all light of an element that is out of date.
+// Computes all outdated light of an element.
 void DirectFactors::find(Work& work, uint32_t leaf) {
   const Scene& now = work.now;
   const uint32_t object = now.mesh.objectOfLeaf(leaf);
@@ -405,7 +405,7 @@ void DirectFactors::find(Work& work, uint32_t leaf) {
   std::ranges::fill(staleOf(leaf), 0u);
 }
 
-// Gives the light of new emitters that is not found yet that of an element near it.
+// Fills missing light of new emitters with that of a nearby element.
 void DirectFactors::spread(const Work& work, uint32_t elements) {
   const SurfaceMesh& mesh = work.now.mesh;
   tbb::parallel_for(size_t{0}, mesh.leaves(), [&](size_t k) {

@@ -14,10 +14,10 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kLightPointSet = 0x1f;
-// Surfaces of more triangles have no closed form.
+// Maximum number of triangles for the closed form.
 constexpr uint32_t kMostTriangles = 12;
 
-// The cosine of light from the unit direction w; 0 below the surface.
+// The cosine for light from the unit direction w; 0 below the surface.
 float cosineOf(const SurfaceSpot& spot, const vec3& w) {
   return glm::dot(spot.geometricNormal, w) > 0.0f ? std::max(0.0f, glm::dot(spot.normal, w)) : 0.0f;
 }

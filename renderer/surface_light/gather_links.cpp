@@ -16,7 +16,7 @@ constexpr uint32_t kGatherSet = 0x6a;
 // A sample is buried if more than one in this number of its rays hit such a back face.
 constexpr std::ptrdiff_t kBuriedShare = 8;
 
-// The bits of x and y in turn.
+// Morton code: the bits of x and y in turn.
 uint32_t interleaved(uint32_t x, uint32_t y) {
   uint32_t out = 0;
   for (uint32_t bit = 0; bit < 16; ++bit)
@@ -43,8 +43,8 @@ std::vector<vec3> gatherDirections(int count, uint32_t scramble, GatherProjectio
     return interleaved(static_cast<uint32_t>(p.x * 65536.0f),
                        static_cast<uint32_t>(p.y * 65536.0f));
   });
-  // Each 16th, then each 4th of the others, then the rest. They begin at a random one, so that the
-  // first are not those of one side.
+  // Order: each 16th, then each 4th of the others, then the rest. Starts at a random one, so that
+  // the first ones are not all on one side.
   const size_t first = hash4(scramble, 1, 0, kGatherSet);
   std::vector<vec3> directions;
   for (size_t step = 16; step > 0; step /= 4)

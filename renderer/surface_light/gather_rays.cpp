@@ -18,12 +18,13 @@ uint8_t byteOf(float weight) {
   return static_cast<uint8_t>(std::clamp(weight, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-// A sphere around what changed, seen from a sample: a cone of directions around +Z of the sample.
+// A bounding sphere of a change, seen from a sample: a cone of directions in the local frame of the
+// sample.
 struct Cone {
   vec3 axis{0.0f};
   float cosine = -1.0f;  // −1: all directions
 
-  // None if all of it is below the surface.
+  // None if the cone is completely below the surface.
   static std::optional<Cone> of(const SurfaceSpot& spot, const vec3& centre, float radius) {
     const vec3 way = centre - spot.rayOrigin();
     const vec3 local = gatherFrame(spot).toLocal(way);
@@ -98,7 +99,7 @@ uint64_t traceGatherRays(const GatherScene& scene, std::span<const SurfaceSpot> 
 void markTouched(const GatherScene& scene, const SurfaceSpot& spot, std::span<const Bounds> boxes,
                  std::span<const vec3> directions, std::span<const GatherLink> links, size_t first,
                  size_t step, std::span<uint64_t> marks) {
-  // Rays that end on an element beside a box see it otherwise, too.
+  // Rays that end on an element near a box may see it differently, too.
   const float reach = scene.cuts.largestChanged();
   for (const Bounds& box : boxes) {
     if (box.empty()) continue;

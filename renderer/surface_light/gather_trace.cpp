@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// The places of a sample; ray i leaves from place i modulo their number.
+// The points of a sample; ray i starts at point i modulo their number.
 std::vector<SurfaceSpot> spotsOf(const RenderScene& scene, const SurfaceMesh& mesh,
                                  uint32_t sample) {
   std::vector<SurfaceSpot> spots;
@@ -68,7 +68,7 @@ uint64_t GatherLinks::trace(const RenderScene& scene, const RayCaster& rays,
     target[s] = static_cast<uint16_t>(wanted);
   };
   for (uint32_t s = 0; s < samples; ++s) extend(s, 1);
-  // 2. What is out of date, then what is missing; where the last frame stopped.
+  // 2. Outdated rays, then missing ones, beginning where the last frame stopped.
   const uint32_t first = next_ < samples ? next_ : 0;
   for (uint32_t i = 0; i < samples && planned < most; ++i) {
     const uint32_t s = (first + i) % samples;

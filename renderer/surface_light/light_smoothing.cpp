@@ -9,12 +9,12 @@
 namespace lamplighter {
 namespace {
 
-// Passes of averaging with all links, and for each stage of links that is missing.
+// Number of averaging passes with all links, and additional ones per missing stage of links.
 constexpr int kPasses = 2, kPassesMore = 2;
 // Neighbours have full weight if what they see is at least kFar times as far away as they are from
 // each other, and no weight at kNear times or less.
 constexpr float kFar = 4.0f, kNear = 1.0f;
-// How far light is carried to buried samples [elements].
+// Maximum distance over which light is propagated to buried samples [elements].
 constexpr int kMostFills = 16;
 
 }  // namespace
@@ -67,7 +67,7 @@ void LightSmoothing::findWeights(const SurfaceMesh& mesh) {
   });
 }
 
-// Each step fills those that have a neighbour with known light.
+// Each step fills the samples that have a neighbour with known light.
 void LightSmoothing::orderBuried(const SurfaceMesh& mesh) {
   fills_.clear();
   std::vector<uint8_t> isUnknown = isBuried_;
@@ -84,7 +84,7 @@ void LightSmoothing::orderBuried(const SurfaceMesh& mesh) {
       (isKnown ? fills_ : later).push_back(s);
     }
     if (fills_.size() == first) return;
-    // The weights say from which neighbours each takes its light.
+    // The weights define from which neighbours each sample takes its light.
     for (size_t k = first; k < fills_.size(); ++k) {
       const Near near = nearOf(mesh, fills_[k]);
       for (size_t i = 0; i < near.samples.size(); ++i)
@@ -129,7 +129,7 @@ void LightSmoothing::apply(const SurfaceMesh& mesh, std::vector<vec3>& values) c
 std::map<uint32_t, double> LightSmoothing::sharesOf(const SurfaceMesh& mesh,
                                                     uint32_t sample) const {
   std::map<uint32_t, double> shares{{sample, 1.0}};
-  // Shares out what a sample has among its neighbours and, by `own`, itself.
+  // Distributes the weight of a sample to its neighbours and, by `own`, to itself.
   const auto share = [&](uint32_t s, double whole, double own, std::map<uint32_t, double>& out) {
     const Near near = nearOf(mesh, s);
     double weights = own;

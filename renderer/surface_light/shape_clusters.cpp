@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// Places of a cluster, from which its rays leave in turn.
+// Number of points of a cluster from which its rays start in turn.
 constexpr uint32_t kMostPlaces = 8;
 // A cluster gives light to vertices within this distance [sizes].
 constexpr float kReach = 1.5f;
@@ -101,7 +101,7 @@ class ClusterBuilder {
     return kFirstBlend + static_cast<uint32_t>(blends_.size() - 1);
   }
 
-  // The nearest clusters that face a similar direction: a large one counts more than a small one.
+  // The nearest clusters with a similar normal: large ones have more weight.
   SurfaceShape::Blend blendAt(const OwnMesh::Vertex& v, uint32_t t) const {
     SurfaceShape::Blend out;
     const auto [x, y, z] = cellOf(v.position);
@@ -134,7 +134,7 @@ class ClusterBuilder {
   }
 
  public:
-  // Values that are blends, until all samples are known.
+  // Marks values that are blends, until all samples are known.
   static constexpr uint32_t kFirstBlend = 0x80000000u;
   std::vector<SurfaceShape::Blend> blends_;
 

@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-// While anything changes, the light is gathered by this share of the rays if there are many.
+// If samples have many rays, only this share of them is used while anything changes.
 constexpr int kLiveShare = 4;
 constexpr size_t kManyLinks = size_t{1} << 22;
 
@@ -18,8 +18,8 @@ constexpr size_t kManyLinks = size_t{1} << 22;
 // larger: in levels with many samples the mean of neighbours is as smooth.
 constexpr int kFewRays = 32;
 
-// The mesh shows the light in full where what a sample sees is, in the mean, as many edges of
-// elements away, and not at all where it is nearer than the lesser number.
+// The mesh represents the light fully if the mean hit distance of a sample is at least the larger
+// number of element edges, and not at all below the smaller number.
 constexpr float kFullReach = 4.0f, kLeastReach = 1.0f;
 
 size_t mostSamples(const SurfaceLightOptions& options) {
@@ -27,7 +27,7 @@ size_t mostSamples(const SurfaceLightOptions& options) {
   return std::max<size_t>(options.linkBytes / (sizeof(GatherLink) * rays), 1);
 }
 
-// As many as fit into memory, in steps of two.
+// The requested number of rays, halved until the links fit into memory.
 int gatherRays(const SurfaceLightOptions& options, size_t samples) {
   int rays = options.gatherRays;
   while (rays > kFewRays &&
@@ -36,7 +36,7 @@ int gatherRays(const SurfaceLightOptions& options, size_t samples) {
   return rays;
 }
 
-// Where the objects that moved were and are.
+// Bounds of moved objects, before and after.
 std::vector<Bounds> boxesOf(const RenderScene& scene, const RenderSceneChanges& changes) {
   std::vector<Bounds> boxes = changes.movedBounds;
   for (const uint32_t o : changes.movedObjects) boxes.push_back(scene.objects[o].bounds);
@@ -62,7 +62,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   options_ = options;
   lights_ = LightSet(scene, lights_);
 
-  // 1. The elements, and what their rays see.
+  // 1. The elements and their gather rays.
   const SurfaceMeshChange mesh = mesh_.update(scene, changes, {options.edge, mostSamples(options)});
   const int raysOfSample = gatherRays(options, mesh_.usedSamples());
   const bool isNew = mesh.isNew || isFirst || raysOfSample != links_.rays();
@@ -101,7 +101,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   counts_.factorsFound = direct_.factors();
   counts_.masks = direct_.masked();
 
-  // 3. Bounces: not in each frame in which a picture at rest gets more rays.
+  // 3. Bounces: not in every frame in which a picture at rest gets more rays.
   const bool isCurrent = links_.isCurrent() && direct_.isDone();
   const bool isReady = links_.isDone() && direct_.isDone();
   isDone_ = false;
@@ -119,7 +119,7 @@ bool SurfaceLight::update(const RenderScene& scene, const RenderSceneChanges& ch
   return true;
 }
 
-// Takes what was traced since the last call.
+// Uses the rays that were traced since the last call.
 void SurfaceLight::smooth(const RenderScene& scene, bool isNewMesh) {
   std::vector<uint32_t> changed;
   for (uint32_t s = 0; s < isUnsmoothed_.size(); ++s)
@@ -194,7 +194,7 @@ void SurfaceLight::findMixed() {
   }
 }
 
-// What the rays of these samples that hit nothing see; of all samples if the sky is another one.
+// Sky light along the rays of these samples that hit nothing; of all samples if the sky changed.
 void SurfaceLight::findSky(const RenderScene& scene, std::span<const uint32_t> samples) {
   sky_.resize(mesh_.samples(), vec3(0.0f));
   std::vector<uint32_t> all;

@@ -23,7 +23,7 @@ bool hasShape(const RenderScene& scene, uint32_t object) {
          !scene.materials[static_cast<size_t>(o.material)].isClear();
 }
 
-// No object has more than this part (1/8) of the samples.
+// No object has more than one in this number of the samples.
 constexpr size_t kLargestPart = 8;
 
 // The area [m²] and the longest side [m] of an object.
@@ -105,15 +105,15 @@ float SurfaceMesh::levelEdge(int level) const {
   return options_.edge * std::exp2(0.5f * static_cast<float>(level));
 }
 
-// Lower bound of the samples of an object: no element is larger than an even triangle of that edge,
-// and there are about half as many samples as elements.
+// Lower bound of the samples of an object: no element is larger than an equilateral triangle of
+// that edge, and there are about half as many samples as elements.
 double SurfaceMesh::leastSamples(uint32_t object, int level) const {
   const double edge = shapeEdge(known_[object].longest, levelEdge(level));
   return (identities_[object].hasBacks ? 2.0 : 1.0) * known_[object].area / (0.866 * edge * edge);
 }
 
-// Finds the shape of an object with edges of a level, or longer ones if it would have more than its
-// share of the samples: ground around a house must not take those of the house.
+// Computes the shape of an object with edges of a level, or longer ones if it would exceed its
+// share of the samples: the ground around a house must not use the samples of the house.
 void SurfaceMesh::findShape(const RenderScene& scene, uint32_t object, int level) {
   Known& known = known_[object];
   const auto most = std::max(options_.mostSamples / kLargestPart, size_t{1});
@@ -151,7 +151,7 @@ bool SurfaceMesh::findShapes(const RenderScene& scene, int level) {
   return isLast || samples <= options_.mostSamples;
 }
 
-// Gives the elements of an object their numbers, or takes them away.
+// Assigns numbers to the elements of an object, or releases them.
 void SurfaceMesh::renumber(uint32_t object) {
   Part& part = parts_[object];
   const auto shape = identities_[object].hasShape ? known_[object].shape : nullptr;

@@ -70,7 +70,7 @@ class TreeBuilder {
             0.5f * (a.weights + b.weights)};
   }
 
-  // Whether the second diagonal of the rest beside a cut corner is the shorter one.
+  // Whether the second diagonal of the quadrilateral beside a cut corner is the shorter one.
   static bool takesOtherDiagonal(int edges, const std::array<Corner, 6>& p) {
     const auto length = [&](int a, int b) {
       return glm::distance(p[static_cast<size_t>(a)].position, p[static_cast<size_t>(b)].position);
@@ -107,7 +107,7 @@ class TreeBuilder {
   uint32_t triangle_ = 0;
 };
 
-// The samples with which each shares an element, in order.
+// By sample: the samples that share an element with it, in order.
 void findNeighbours(SurfaceShape& shape) {
   const size_t samples = shape.samples.size();
   std::vector<uint32_t> ends(samples + 1, 0);  // of the lists, with repetitions

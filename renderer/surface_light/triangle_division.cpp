@@ -45,7 +45,7 @@ std::array<TriangleDivision, kDivisions> allDivisions() {
   return all;
 }
 
-// The child in which the least weight is largest.
+// The child in which the smallest weight is largest.
 int nearestChild(const TriangleDivision& division, vec3& weights) {
   int best = 0;
   float least = -std::numeric_limits<float>::infinity();
@@ -76,7 +76,7 @@ int childAt(int division, vec3& weights) {
     weights = w;
     return child;
   };
-  // The most frequent divisions in closed form, because each ray takes several.
+  // The most frequent divisions in closed form, because each ray needs several.
   switch (division & 7) {
     case 1:
       return x >= y ? take(0, {x - y, 2.0f * y, z}) : take(1, {2.0f * x, y - x, z});

@@ -9,7 +9,7 @@ namespace lamplighter {
 namespace {
 
 constexpr float kSameDirection = 0.9999f;
-// Depths between the point (0) and the light (1) at which blockers count.
+// Range of depths between the point (0) and the light (1) in which blockers count.
 constexpr float kLeastDepth = 1e-3f, kMostDepth = 1.0f - 1e-4f;
 constexpr int kBlock = 8;
 
@@ -20,7 +20,7 @@ uint64_t bitsBetween(int from, int to) {
   return below & ~((uint64_t{1} << from) - 1);
 }
 
-// Sets the bits of the places whose middles lie in a convex polygon [places].
+// Sets the bits of the places whose centres lie in a convex polygon [places].
 void fill(std::span<const vec2> polygon, int side, FlatLight::Rows& rows) {
   float lowest = polygon[0].y, highest = polygon[0].y;
   for (const vec2& p : polygon) {
@@ -97,7 +97,7 @@ VisiblePlaces::VisiblePlaces(const FlatLight& light, const vec3& x)
     : light_(light), x_(x), height_(glm::dot(x - light.origin, light.normal)) {}
 
 void VisiblePlaces::block(const vec3& a, const vec3& b, const vec3& c) {
-  // Depth 0 at x, 1 in the plane of the light; clipped to what lies between.
+  // Depth 0 at x, 1 in the plane of the light; clipped to the range between.
   std::array<vec3, 8> polygon{a, b, c}, clipped;
   size_t count = 3;
   const auto depth = [&](const vec3& p) { return glm::dot(x_ - p, light_.normal) / height_; };

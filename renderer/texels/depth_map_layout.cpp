@@ -54,13 +54,13 @@ vec3 DepthMapLayout::pointOf(uint32_t pixel) const {
 }
 
 float DepthMapLayout::solidAngleOf(uint32_t pixel) const {
-  // Of a piece dx dy of a plane whose points have a coordinate, or a sum of coordinates, of 1.
+  // Solid angle of an area dx dy of a plane on which a coordinate, or the sum of coordinates, is 1.
   const float side = 2.0f / static_cast<float>(resolution), r = glm::length(pointOf(pixel));
   return side * side / (r * r * r);
 }
 
 float DepthMapLayout::halfWidth() const {
-  // A face of the cube spans 90°; the middle of a face of the octahedron is stretched most.
+  // A face of the cube spans 90°; the centre of a face of the octahedron is stretched most.
   return (kind == DepthMapKind::cube ? 1.4142f : 2.8f) / static_cast<float>(resolution);
 }
 

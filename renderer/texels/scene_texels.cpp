@@ -39,12 +39,12 @@ SceneTexels::Update SceneTexels::take(const RenderScene& scene, Services& servic
   const bool isOther = !isStarted_ || changes.rebuilt;
   const bool isMoving = std::ranges::any_of(
       changes.movedObjects, [&](uint32_t o) { return scene.slots[o].mesh != nullptr; });
-  // Objects that came or went, or let other rays through.
+  // Objects that were added or removed, or whose transparency for rays changed.
   const bool isReplaced = (changes.objects && isMoving) || (changes.materials && takeSides(scene));
   moved_.insert(changes.movedObjects.begin(), changes.movedObjects.end());
   isStale_ = isStale_ || isOther || isMoving || isReplaced;
   if (!changes.movedObjects.empty() && !isOther && !isReplaced) {
-    // The places of moved objects, so that pixels find their texels.
+    // The positions of moved objects, so that pixels find their texels.
     takeAtlases(services);
     out.change = Change::moving;
     return out;
@@ -73,7 +73,7 @@ SceneTexels::Update SceneTexels::take(const RenderScene& scene, Services& servic
   return out;
 }
 
-// Counts objects whose material lets other rays through as moved. Returns whether there are any.
+// Treats objects whose material changed for rays as moved. Returns whether there are any.
 bool SceneTexels::takeSides(const RenderScene& scene) {
   const std::vector<Sides> before = std::exchange(sides_, sidesOf(scene));
   bool isOther = false;

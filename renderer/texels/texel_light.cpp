@@ -12,7 +12,7 @@
 namespace lamplighter {
 namespace {
 
-// Rays of a texel to a light that is not a point.
+// Number of rays from a texel to a light that is not a point.
 constexpr size_t kRays = 4;
 
 }  // namespace

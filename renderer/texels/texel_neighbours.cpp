@@ -14,7 +14,7 @@ namespace {
 // Rays between neighbours are lifted off curved surfaces by this share of the side of a texel.
 constexpr float kLift = 0.1f;
 
-// Between a point of the surface and the middle of a texel.
+// Whether anything blocks the line between a point of the surface and the centre of a texel.
 bool seesTexel(const RenderScene& scene, const RayCaster& rays, const vec3& position,
                const SurfaceTexel& texel) {
   const vec3 lift = kLift * std::sqrt(texel.area) * texel.spot.geometricNormal;

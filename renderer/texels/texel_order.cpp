@@ -23,8 +23,8 @@ std::vector<uint32_t> zigzag(Texels texels, std::vector<uint32_t> chart) {
   return chart;
 }
 
-// Along the border with the left hand on it, then along what was visited. Where no texel is free,
-// steps back.
+// Follows the border with the left hand, then the visited texels. If no neighbour is free, it goes
+// back.
 std::vector<uint32_t> spiral(Texels texels, std::vector<uint32_t> chart) {
   std::map<std::pair<int, int>, uint32_t> isFree;  // by row and column
   for (const uint32_t t : chart) isFree[{texels[t].at.y, texels[t].at.x}] = t;

@@ -16,7 +16,7 @@ namespace {
 
 // Sample points along a side of a texel that estimate the area covered by a triangle.
 constexpr int kPlaces = 4;
-// Texels around a point, to both sides, of which the nearest is taken if it lies between none.
+// Search radius for the nearest texel if a point lies between none [texels].
 constexpr int kReach = kGutter + 1;
 
 // Rays that find buried texels: a texel is buried if more than one in this number hits a back face
@@ -50,7 +50,7 @@ struct FlatTriangle {
     const float area = doubledArea();
     const float u = crossOf(p - corners[0], corners[2] - corners[0]) / area;
     const float v = crossOf(corners[1] - corners[0], p - corners[0]) / area;
-    // A place on an edge must not lie outside of both triangles.
+    // A point on an edge must not lie outside both triangles.
     constexpr float kRounding = 1e-4f;
     if (u < -kRounding || v < -kRounding || u + v > 1.0f + kRounding) return std::nullopt;
     const float second = std::clamp(u, 0.0f, 1.0f);
@@ -58,7 +58,7 @@ struct FlatTriangle {
   }
 };
 
-// The places of a chart, by texel of its rectangle.
+// The sample points of a chart, by texel of its rectangle.
 struct ChartCover {
   ChartCover(const RenderScene& scene, uint32_t object, const ObjectAtlas& own,
              const PlacedChart& placed)
@@ -90,7 +90,7 @@ struct ChartCover {
         const vec2 p = (vec2(x, y) + 0.5f) / static_cast<float>(kPlaces);
         const auto weights = flat.weightsOf(p);
         if (!weights) continue;
-        // A place on an edge belongs to one triangle.
+        // A sample point on an edge belongs to one triangle.
         auto isTaken = isCovered[static_cast<size_t>(y) * static_cast<size_t>(kPlaces * size.x) +
                                  static_cast<size_t>(x)];
         if (isTaken) continue;
@@ -107,7 +107,7 @@ struct ChartCover {
   std::vector<bool> isCovered;  // by place
 };
 
-// The texel whose covered places are given.
+// Makes the texel from its covered sample points.
 SurfaceTexel texelOf(const RenderScene& scene, uint32_t object, const ObjectAtlas& own,
                      const PlacedChart& placed, std::span<const Covered> places) {
   SurfaceTexel texel;
@@ -121,7 +121,7 @@ SurfaceTexel texelOf(const RenderScene& scene, uint32_t object, const ObjectAtla
   texel.place = std::ranges::min_element(places, {}, [&](const Covered& c) {
                   return glm::distance(c.at, mean);
                 })->place;
-  // One of each row of places, where there are all, in different columns.
+  // If all are covered: one of each row of sample points, in different columns.
   constexpr std::array<size_t, 4> kColumns{1, 3, 0, 2};
   for (size_t k = 0; k < texel.spread.size(); ++k)
     texel.spread[k] =
@@ -143,7 +143,7 @@ SurfaceTexel texelOf(const RenderScene& scene, uint32_t object, const ObjectAtla
   const std::array<vec3, 2> axes{turn * placed.chart.tangent, turn * placed.chart.bitangent};
   for (size_t k = 0; k < 2; ++k)
     texel.half[k] = axes[k] - (slope != 0.0f ? glm::dot(axes[k], n) / slope : 0.0f) * up;
-  // At the border of a chart a texel may be narrow.
+  // A texel at the border of a chart may be narrow.
   vec2 low = places.front().at, high = low;
   for (const Covered& c : places) {
     low = glm::min(low, c.at);
@@ -155,7 +155,7 @@ SurfaceTexel texelOf(const RenderScene& scene, uint32_t object, const ObjectAtla
   return texel;
 }
 
-// Gives the rectangle of a texel its area.
+// Scales the rectangle of a texel to its area.
 void sizeRectangle(SurfaceTexel& texel) {
   const float unit = glm::length(glm::cross(texel.half[0], texel.half[1]));
   const float side = unit > 0.0f ? 0.5f * std::sqrt(texel.area / unit) : 0.0f;
@@ -272,7 +272,8 @@ TexelBlend TexelSet::blendAt(uint32_t object, bool isBack, const vec2& texels) c
   return shown.isAny() ? shown : blendOf(part, texels, true);
 }
 
-// Of texels in reach. `withBuried`: also of buried ones.
+// The bilinear blend at a point; if that has no texel, the nearest one within kReach. `withBuried`:
+// also buried ones.
 TexelBlend TexelSet::blendOf(const Part& part, const vec2& texels, bool withBuried) const {
   TexelBlend blend;
   const auto at = [&](int x, int y) {

@@ -12,17 +12,18 @@
 namespace lamplighter {
 namespace {
 
-// A direction for each pixel of an octahedral map, at one of kParts² places of the pixel. The place
-// differs from texel to texel, so that windows are not brighter or darker for all of a wall.
+// One direction per pixel of an octahedral map, at one of kParts² positions in the pixel. The
+// position differs from texel to texel, so that windows are not too bright or too dark for a whole
+// wall.
 constexpr int kSkySide = 32, kParts = 4;
 constexpr DepthMapLayout kSkyPlaces{DepthMapKind::octahedral, kParts* kSkySide};
 constexpr uint32_t kDirections = kSkySide * kSkySide;
 constexpr size_t kWords = kDirections / 64;
 constexpr uint32_t kSkySet = 0x5c;
-// Texels of a step of the work.
+// Number of texels per work step.
 constexpr size_t kTexelsAStep = 64;
 
-// The place with a number from 0 to kParts² − 1.
+// The position with a number from 0 to kParts² − 1.
 uint32_t skyPlaceOf(uint32_t pixel, uint32_t number) {
   const uint32_t x = kParts * (pixel % kSkySide) + number % kParts;
   const uint32_t y = kParts * (pixel / kSkySide) + number / kParts;

@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// Work of a frame: some 40 ms on two cores.
+// Work per frame: about 40 ms on two cores.
 constexpr float kFieldWorkAFrame = 4'000'000.0f;
 constexpr float kMostFieldPace = 8.0f;
 

@@ -9,7 +9,7 @@
 namespace lamplighter {
 namespace {
 
-// White in the view of lines.
+// Number of crossings that is shown as white.
 constexpr float kManyCrossings = 16.0f;
 
 uint8_t displayed(float linear) {
@@ -22,7 +22,7 @@ void setPixel(Image8& image, size_t pixel, const vec3& colour) {
     image.pixels[4 * pixel + static_cast<size_t>(c)] = displayed(colour[c]);
 }
 
-// So that the mean of what texels send is a middle grey.
+// Exposure with which the mean light of texels is middle grey.
 float exposureOf(const PartnerRadiance& sent) {
   double sum = 0.0;
   size_t count = 0;
@@ -42,7 +42,7 @@ ViewPicture emptyView(const FieldViewSubject& in, const char* title) {
   return out;
 }
 
-// The direction nearest to the one in which the camera looks.
+// The direction nearest to the viewing direction.
 size_t directionOfView(const FieldViewSubject& in) {
   const vec3 ahead = in.picture.view().orientation * vec3(0.0f, 0.0f, -1.0f);
   const FieldDirections::Triple triple = in.light.directions().tripleOf(ahead);
@@ -81,7 +81,7 @@ ViewPicture lines(const FieldViewSubject& in) {
   return view;
 }
 
-// What the grid of lines of one direction shows: the light that its surfaces send back along it
+// The picture on the grid of lines of one direction: the light that surfaces send back along it
 // (paper 5, figure 2c).
 ViewPicture direction(const FieldViewSubject& in) {
   ViewPicture view = emptyView(in, "Light along one direction");
@@ -97,7 +97,7 @@ ViewPicture direction(const FieldViewSubject& in) {
   raster.draw(in.scene, geometry.surface, grid);
   const vec3 centre = grid.toGrid(in.picture.view().eye);
   const int width = view.image.width, height = view.image.height;
-  // One cell is as many pixels as show the level.
+  // The cell size in pixels is chosen so that the whole level is visible.
   const float cells = 2.0f * in.scene.bounds.radius() / grid.cell;
   const float scale = std::max(1.0f, cells) / static_cast<float>(height);
   for (int y = 0; y < height; ++y) {
@@ -127,8 +127,8 @@ ViewPicture direction(const FieldViewSubject& in) {
   return view;
 }
 
-// What the texel in the middle of the picture sees: the disc of its hemisphere from above, by the
-// projection that keeps areas.
+// The incident light of the texel in the middle of the picture: the disc of its hemisphere from
+// above, in an equal-area projection.
 ViewPicture incident(const FieldViewSubject& in) {
   ViewPicture view = emptyView(in, "Light that arrives in the middle of the picture");
   const int width = view.image.width, height = view.image.height;

@@ -13,7 +13,7 @@
 namespace lamplighter {
 namespace {
 
-// Of a frame: lights × pixels, and texels of maps. Some 80 ms on two cores.
+// Work per frame: lights × pixels, and texels of maps. About 80 ms on two cores.
 constexpr double kSumsAFrame = 32e6, kTracedAFrame = 600e3;
 constexpr int kCornerPixelsAFrame = 1 << 15;
 
@@ -47,7 +47,7 @@ std::vector<vec3> reflectancesOf(const FrameInputs& in, const SurfacePictureOpti
       const GBufferPoint p = gbuffer.at(x, y);
       const Material& m =
           in.scene.materials[static_cast<size_t>(in.scene.objects[p.object].material)];
-      // Only gloss needs the place on the triangle.
+      // Only glossy surfaces need the position on the triangle.
       vec2 weights(0.0f);
       if (options.speculars && mayBeGlossy(m)) weights = SeenTriangle(in.scene, p).weights;
       const PixelReflectance r = reflectanceOf(in.scene, p, weights, view.eye, options);

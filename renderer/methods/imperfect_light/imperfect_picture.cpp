@@ -14,11 +14,11 @@
 namespace lamplighter {
 namespace {
 
-// Blocks of points that maps take in turns.
+// Number of blocks of points, which maps use in turn.
 constexpr uint32_t kBlocks = 16;
-// Visible places for the density of points, where view samples are pixels.
+// Number of visible points for the density of occluder points, if view samples are pixels.
 constexpr int kPointViewSamples = 128;
-// Of the choice at rest.
+// Rays per frame for the choice at rest.
 constexpr uint64_t kChoosingRaysAFrame = 100'000;
 
 uint32_t powerBelow(int value) { return std::bit_floor(static_cast<uint32_t>(std::max(value, 1))); }
@@ -29,7 +29,7 @@ void ImperfectPicture::update(const FrameInputs& in, const ImperfectParameters& 
                               const EndStage& endStage) {
   ImperfectParameters parameters = wanted;
   parameters.resolution = static_cast<int>(powerBelow(wanted.resolution));
-  // The window changes it in each frame; no picture depends on it.
+  // The window changes this parameter in each frame; no picture depends on it.
   static_cast<FrameBudgetParameters&>(parameters) = {};
   const RayCaster& rays = in.services.rays();
   scene_ = &in.scene;

@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-// Those of many_lights but for light on surfaces, then those of bounced light.
+// The stages of many_lights without light on surfaces, then those of bounced light.
 std::vector<StageSpec> stagesOf() {
   std::vector<StageSpec> all(std::begin(kManyLightsStages), std::end(kManyLightsStages));
   std::erase(all, kMeshesStage);

@@ -1,6 +1,5 @@
-// What LiveLights shows of lamps while they are dragged: a fixed part of their samples follows in
-// each frame and carries all their light. With all samples in turn, the lamp would be at several
-// places at once.
+// Dragged lamps in LiveLights: a fixed part of their samples follows in each frame and carries all
+// their light. With all samples in turn, the lamp would be at several places at once.
 #include <algorithm>
 #include <array>
 
@@ -9,8 +8,8 @@
 namespace lamplighter {
 namespace {
 
-// Parts of the samples that may follow. The first points of a light's sequence are spread as evenly
-// as all of them.
+// Possible parts of the samples that follow. The first points of a light's sequence are distributed
+// as evenly as all of them.
 constexpr std::array kShares{1.0f, 0.75f, 0.5f, 0.375f, 0.25f, 0.1875f, 0.125f, 0.09375f, 0.0625f};
 
 // The part of a frame's refreshes that they may take; bounced light and other lights get the rest.
@@ -62,18 +61,18 @@ void LiveLights::chooseFollowers(const RefreshBudget& budget, const RefreshWork&
   if (followShare_ == 0.0f) return;
   for (auto& [lamp, count] : lamps)
     count = std::max(1, static_cast<int>(followShare_ * static_cast<float>(count)));
-  // Those of a lamp are in the order of its sequence.
+  // The samples of a lamp are in the order of its sequence.
   for (Entry& e : entries_) {
     const auto lamp = lamps.find(e.wanted.id.set());
     if (lamp == lamps.end() || !e.isWanted) continue;
     e.follows = lamp->second-- > 0;
     e.waitsForRest = !e.follows && e.movesNow;
-    // Nobody sees it, so it has not waited when the drag ends.
+    // It is not visible, so its waiting time restarts when the drag ends.
     if (e.waitsForRest) e.framesWaiting = 0;
   }
 }
 
-// Where all samples that follow are in place, the others are not shown until it is their turn.
+// If all samples that follow are in place, the others are hidden until they are refreshed.
 void LiveLights::hideMisplaced() {
   struct Lamp {
     bool hasPlaced = false, lacks = false;  // lacks: some that follow are not in place

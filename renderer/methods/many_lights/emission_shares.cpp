@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// What a surface emits towards the eye, as a share of its emissive factor.
+// Emission of a surface towards the eye, as a share of its emissive factor.
 vec3 shareSeen(const RenderScene& scene, const RayCaster& rays, const Ray& ray,
                const LightControls& controls, int& control) {
   const Hit hit = rays.intersect(ray, Surfaces::seen);

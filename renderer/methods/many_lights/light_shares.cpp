@@ -15,19 +15,20 @@
 namespace lamplighter {
 namespace {
 
-// Work of a frame: lights × pixels summed, and pixels whose corners are traced.
+// Work per frame: lights × pixels summed, and pixels for which corner light is traced.
 constexpr uint64_t kLightPixelsAFrame = uint64_t{1} << 24;
 constexpr int kCornerPixelsAFrame = 1 << 16;
-constexpr int kLampPixelsAFrame = 1 << 18;  // of a picture whose light near lamps is corrected
+constexpr int kLampPixelsAFrame =
+    1 << 18;  // pixels per frame for which light near lamps is corrected
 
-// Each share has a cost of its own, in time and in memory. With more lights the faint ones have one
-// share together.
+// Maximum number of shares, because each costs time and memory. With more lights the faint ones
+// have one common share.
 constexpr size_t kMostShares = 32;
 
 // Largest relative difference between factors that count as equal.
 constexpr float kMostOff = 1e-5f;
 
-// What a share takes while it is computed: the light of the pixels without jitter, and of the mean.
+// Memory of a share while it is computed: the light of the pixels without jitter, and of the mean.
 constexpr size_t kBytesAPixel = 2 * sizeof(vec3);
 
 size_t pixelsOf(const View& view) {
@@ -53,8 +54,8 @@ void LightShares::restart(ManyLightsKernels& kernels) {
   kernels.dropShares({});
 }
 
-// Each control has its own share. If memory is short, only the brightest do, and the others have
-// one together.
+// Each control has its own share. If memory is limited, only the brightest do, and the others have
+// a common one.
 void LightShares::begin(const Inputs& in) {
   const size_t count = in.controls.size();
   controls_ = in.controls.controls;
@@ -104,7 +105,7 @@ void LightShares::sumNext(const Inputs& in) {
   const bool isShown = !isMiddle || pictures_ == 1;
   const vec2 jitter = isMiddle ? vec2(0.0f) : pixelJitter(picture_, pictures_);
   const float weight = 1.0f / static_cast<float>(pictures_);
-  // Between two steps other stages may have rendered another one.
+  // Between two steps other stages may have rendered another G-buffer.
   in.frame.backend.renderGBuffer(in.frame.view, jitter);
   if (isShown && !hasEmission_) emission_.add(in.frame, in.controls, jitter, weight);
   hasEmission_ = isShown;
@@ -150,7 +151,7 @@ void LightShares::sumNext(const Inputs& in) {
   in.kernels.dropShares(weights ? weights->ofShares : std::vector<vec3>());
 }
 
-// Goes on with the rows of the picture in progress. Returns whether they are complete.
+// Continues with the rows of the picture in progress. Returns whether they are complete.
 bool LightShares::correctNearLamps(const Inputs& in, vec2 jitter, float weight) {
   const View& view = in.frame.view;
   const NearLamps lamps = nearLampsOf(in);
@@ -178,7 +179,7 @@ void LightShares::keepWithoutCorners(const Inputs& in) {
   for (size_t i = 0; i < nearLamps_.pixels.size(); ++i)
     withoutCorners_.pixels[i] -= nearLamps_.pixels[i];
   nearLamps_ = {};
-  // Where shadow maps and rays differ, more may be taken away than there was.
+  // Where shadow maps and rays disagree, more light may be subtracted than there was.
   for (Share& s : shares_)
     for (vec3& p : s.light.pixels) p = glm::max(p, vec3(0.0f));
 }
@@ -260,7 +261,7 @@ std::optional<LightShares::Weights> LightShares::weightsFor(const LightControls&
     if (!isKnown[i] && controls.controls[i].gain != vec3(0.0f)) return std::nullopt;
   for (const Share& s : shares_) weights.ofShares.push_back(weights.ofControls[s.controls.front()]);
   if (lightsWithoutShare_ == 0) return weights;
-  // All lights in one share must have changed alike, in each channel.
+  // All lights in one share must have changed by the same factor in each channel.
   for (int c = 0; c < 3; ++c) {
     std::optional<float> ratio;
     for (const uint32_t control : shares_.back().controls) {

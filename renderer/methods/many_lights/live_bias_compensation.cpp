@@ -25,7 +25,7 @@ PixelRect pixelsOf(const View& view, const Bounds& box) {
     const vec3 at(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                   corner & 4 ? box.max.z : box.min.z);
     const vec3 seen = view.project(at);
-    if (!(seen.z > 0.0f)) return {glm::ivec2(0), all};  // it reaches behind the eye
+    if (!(seen.z > 0.0f)) return {glm::ivec2(0), all};  // the box reaches behind the eye
     low = glm::min(low, vec2(seen));
     high = glm::max(high, vec2(seen));
   }

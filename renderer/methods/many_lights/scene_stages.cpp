@@ -1,4 +1,4 @@
-// The stages of ManyLights that bring visibility, light maps and transfer up to date.
+// The stages of ManyLights that update visibility, light maps and transfer.
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// As many tests as the columns take that a frame may refresh.
+// Number of tests for the columns that a frame may refresh.
 uint64_t mostTestsOfNewPatches(const VisibilityDatabase& visibility,
                                const ManyLightsOptions& options) {
   const RefreshBudget budget = options.budget();

@@ -49,7 +49,7 @@ bool ManyLights::isSamePicture(const FrameInputs& in, const Options& options) co
          options.cornerLight == options_.cornerLight && options.shareMemory == options_.shareMemory;
 }
 
-// Whether the light samples and their maps are those that the scene wants.
+// Whether the light samples and their maps are in their wanted state.
 bool ManyLights::isAtRest() const {
   const bool isFine = mapRooms_.scale() == 1 || lights_.coarse() == 0;
   return lights_.pending() == 0 && isFine && paths_.isAtRest() && choiceIsCurrent_ &&
@@ -169,7 +169,7 @@ void ManyLights::addSample(const FrameInputs& in, const Options& options, StageT
   stages.end(kAntialiasingStage);
 }
 
-// Adds bounced light that is kept on surfaces.
+// Adds bounced light that is stored on surfaces.
 void ManyLights::addMeshes(const FrameInputs& in, const Options& options, StageTimer& stages,
                            GiOutput& out, ManyLightsStats& stats) {
   if (!options.useMeshes()) return meshes_.forget();

@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// Returns whether the picture without a shift has to be found again.
+// Returns whether the picture without a shift must be computed again.
 bool MeshDirectLight::takeScene(const FrameInputs& in, const DirectMeshOptions& options,
                                 const SurfacePictureOptions& surfaces) {
   const RenderSceneChanges changes = std::exchange(unseen_, {});

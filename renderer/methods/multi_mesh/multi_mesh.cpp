@@ -17,7 +17,7 @@ constexpr StageSpec kDirectMeshesStage{
     "Finding the direct light of area lights at vertices of meshes, and showing it.",
     StageWork::surfaces};
 
-// Those of many_lights, and the last.
+// The stages of many_lights, with this one at the end.
 std::vector<StageSpec> stagesOf() {
   std::vector<StageSpec> all(std::begin(kManyLightsStages), std::end(kManyLightsStages));
   all.push_back(kDirectMeshesStage);
@@ -98,7 +98,7 @@ const StatisticTable<MultiMeshStats>& statisticTable() {
   return table;
 }
 
-// Vertices lit in a frame with the default number of updates: some 40 ms on two cores.
+// Vertices lit in a frame with the default number of updates: about 40 ms on two cores.
 constexpr float kVerticesAFrame = 2048.0f;
 
 class MultiMesh final : public GiMethod {
@@ -139,7 +139,7 @@ class MultiMesh final : public GiMethod {
     if (in.part == LightPart::indirect) return;
     const double start = in.stopwatch ? in.stopwatch() : 0.0;
     const auto antialias = manyLightsParameters().read(in.settings).antialias;
-    // Shifted pictures wait for the rest of the light.
+    // Shifted pictures wait for the remaining light.
     const int samples = out.settled ? antialias : 1;
     const float pace = surfacePace(in.services.budget().surfaceWork, options.updates);
     out.radiance =

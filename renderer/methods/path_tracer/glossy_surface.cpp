@@ -25,8 +25,8 @@ vec3 lifted(const vec3& eye) {
   return {scale * eye.x, scale * eye.y, kLeast};
 }
 
-// The same as brdf.h computes it, rounding included: in narrow lobes and flat views that is large,
-// and the density must have it, too.
+// The same as in brdf.h, including its rounding errors: in narrow lobes at grazing angles these are
+// large, and the density must include them, too.
 float denominatorFromCosine(const vec3& light, const vec3& eye, float a2) {
   const float vh2 = std::max(0.5f + 0.5f * glm::dot(light, eye), 1e-6f), sum = light.z + eye.z;
   return std::min(sum * sum / (4.0f * vh2), 1.0f) * (a2 - 1.0f) + 1.0f;
@@ -63,7 +63,7 @@ vec3 GlossySurface::brdf(const vec3& w) const {
   return diffuse_ + lobeTowards(light);
 }
 
-// D·V·F, equal to shared::lobeTowards() but for rounding.
+// D·V·F, equal to shared::lobeTowards() except for rounding.
 vec3 GlossySurface::lobeTowards(const vec3& light) const {
   if (arithmetic_ == LobeArithmetic::fromCosine)
     return shared::lobeTowards(lobe_, light.z, glm::dot(light, eye_), 0.0f);

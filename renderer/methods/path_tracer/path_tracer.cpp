@@ -28,10 +28,10 @@ class Tracer {
     vec3 place{0.0f};
     uint32_t leftOutBy = 0;
   };
-  // Where a path may end.
+  // Known light at which a path may end.
   struct End {
     const KnownLight& known;
-    bool isWhole;                  // the path goes on nevertheless
+    bool isWhole;                  // the path continues nevertheless
     std::optional<vec3> radiance;  // of the path if it ended there
   };
   vec3 trace(Ray ray, PathSampler& sampler, const PathTracerOptions& options, const Start& start,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kTestPoints = static_cast<int>(PointVisibility::kMostPoints);
 constexpr size_t kColumnsOfPoints = PointVisibility::kMostPoints;
-// Up to this number of samples all lamps keep theirs.
+// Up to this number of samples, all lamps keep their samples.
 constexpr int kFewSamples = 32;
 // Points on the surface of a lamp, and directions of the sky, for which rays are traced.
 constexpr size_t kMostProbes = 2048;
@@ -113,7 +113,7 @@ std::vector<LampShare> LampImportance::of(const RenderScene& scene, const RayCas
   return lamps;
 }
 
-// Tests more points, as long as lamps remain that light none.
+// Tests more points while there are lamps that light none.
 void LampImportance::leaveOut(const RenderScene& scene, const RayCaster& rays, const View& view,
                               float clampDistance, std::span<const SceneVpl> vpls,
                               std::vector<Probes> dark, std::vector<LampShare>& lamps) {

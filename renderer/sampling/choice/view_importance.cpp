@@ -126,7 +126,7 @@ std::vector<float> ranksOf(std::span<const SceneVpl> candidates) {
   return ranks;
 }
 
-// What is left of the candidates. One that a choice takes if rank < probability has a rank that is
+// The remaining candidates. A candidate that is taken if rank < probability has a rank that is
 // uniform in [0, probability) afterwards, so rank / probability decides in the next choice. Both
 // choices together are one with the product of the probabilities, still by the first points.
 struct Remaining {
@@ -138,7 +138,7 @@ struct Remaining {
   std::vector<float> replaced;  // the number of candidates that each represents
 };
 
-// Leaves `wanted` of them, in their order.
+// Keeps `wanted` of them, in their order.
 void choose(Remaining& left, std::span<const float> importance, size_t wanted) {
   const size_t count = left.vpls.size();
   if (count <= wanted) return;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostCells = 4096;
 constexpr size_t kMostSums = size_t{1} << 20;
-// The share of samples that is chosen by flux alone.
+// The share of samples that is chosen by flux only.
 constexpr float kByFlux = 0.1f;
 
 float squaredDistance(const Bounds& a, const Bounds& b) {

@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-// Descents of a frame: each needs the light that the last one asked for.
+// Maximum number of descents per frame: each needs the light that the last one requested.
 constexpr size_t kDescents = 8;
 
 }  // namespace
@@ -36,7 +36,7 @@ void DirectMeshes::update(const RenderScene& scene, const RenderSceneChanges& ch
   if (!isOther) forgetTouched(changes);
 }
 
-// The meshes of the present lights, with what is known of those that did not move.
+// Creates the meshes of the current lights, and keeps the known light of those that did not move.
 void DirectMeshes::makeMeshes(const RenderSceneChanges& changes, const DirectMeshOptions& options) {
   const std::vector<VplId> ids = emitterIds(*lights_);
   std::vector<Mesh> before = std::move(meshes_);
@@ -76,7 +76,7 @@ void DirectMeshes::makeMeshes(const RenderSceneChanges& changes, const DirectMes
   }
 }
 
-// Forgets the light of vertices that what moved may have hidden, or may hide.
+// Discards the light of vertices that moved objects may have shadowed before or may shadow now.
 void DirectMeshes::forgetTouched(const RenderSceneChanges& changes) {
   if (changes.movedObjects.empty()) return;
   std::vector<Ball> boxes;
@@ -85,7 +85,7 @@ void DirectMeshes::forgetTouched(const RenderSceneChanges& changes) {
     const Bounds& now = scene_->objects[changes.movedObjects[i]].bounds;
     if (!now.empty()) boxes.emplace_back(now);
   }
-  // Roots of moved objects have vertices at other places.
+  // Roots of moved objects have new vertices.
   tree_.forgetRoots(changes.movedObjects);
   for (Mesh& mesh : meshes_) {
     std::vector<Ball> lights;

@@ -9,7 +9,7 @@
 namespace lamplighter {
 namespace {
 
-// Blockers that are drawn into a mask; with more, rays are faster.
+// Maximum number of blockers for a mask; with more, rays are faster.
 constexpr size_t kMostDrawn = 64;
 // Points on a light: rays go to this number of them first, and to all if the results differ.
 constexpr uint32_t kFirstRays = 64, kPoints = 256;
@@ -65,7 +65,7 @@ vec3 LightFactor::at(const SplitTree::Vertex& vertex, Work& work) const {
   return factor_.hasClosedForm() ? share.seen * factor_.unshadowed(spot) : share.seen * share.all;
 }
 
-// The same places of the light for all points, so that neighbours differ only by what they see.
+// The same points of the light for all receivers, so that neighbours differ only by visibility.
 LightFactor::Share LightFactor::shareOf(const SurfaceSpot& spot, Work& work) const {
   Share share;
   vec3 seen(0.0f), all(0.0f);

@@ -9,7 +9,7 @@
 namespace lamplighter {
 namespace {
 
-// The most by which a normal map brightens a light.
+// Maximum factor by which a normal map brightens a light.
 constexpr float kMostMapped = 8.0f;
 constexpr size_t kLeastPlaces = 4;
 constexpr size_t kPixelsATask = 1024;
@@ -52,7 +52,7 @@ LitPixels::LitPixels(const RenderScene& scene, const GBufferView& gbuffer, const
   });
 }
 
-// How many of the places make a smooth highlight: each of them widens the lobe by less than a
+// Number of points that give a smooth highlight: each of them widens the lobe by less than a
 // quarter (shared::widened()).
 size_t LitPixels::placesFor(const Pixel& p, std::span<const EmitterPoint> points) {
   const EmitterPoint& e = points.front();
@@ -64,7 +64,7 @@ size_t LitPixels::placesFor(const Pixel& p, std::span<const EmitterPoint> points
   return std::min(places, points.size());
 }
 
-// ∫ f cos θ of the lobe, per unit of brightness, if nothing were between.
+// ∫ f cos θ of the lobe, per unit of brightness, without occlusion.
 vec3 LitPixels::highlightOf(const Pixel& p, const LightFactor& light) const {
   const vec3 toEye = glm::normalize(eye_ - p.position);
   const auto points = light.points().first(placesFor(p, light.points()));

@@ -8,8 +8,8 @@
 namespace lamplighter {
 namespace {
 
-// Differences are compared with the light at the place plus this share of the mean of the picture,
-// so that deep shadows are not divided for nothing.
+// Differences are compared with the light at the point plus this share of the mean of the picture,
+// so that deep shadows are not divided unnecessarily.
 constexpr float kDark = 0.1f;
 // Edges whose ends differ by this multiple of the contrast lie in a shadow border, where the middle
 // may equal the mean by chance.
@@ -53,7 +53,7 @@ MeshCut::MeshCut(const SplitTree& tree, const MeshValues& values, const VisibleT
     floor_ = kDark * static_cast<float>(sum / static_cast<double>(visible.pixels()));
 }
 
-// The largest length of the edge as seen from the eye, whatever of it is in the picture.
+// Upper bound of the length of the edge as seen from the eye, inside or outside the picture.
 float MeshCut::pixelsOf(const vec3& a, const vec3& b) const {
   const vec3 along = b - a;
   float longest = 0.0f;
@@ -125,7 +125,7 @@ void MeshCut::visit(Visit& at, uint32_t number, const std::array<vec3, 3>& light
     if (middle == SplitTree::kNone) {
       wantsChildren = true;
     } else if (values_.isKnown[middle] == 0) {
-      // Nothing is known of what long edges hide.
+      // Long edges count as full contrast: their ends tell nothing about shadows between.
       const float contrast = length > kLongEdge ? 1.0f : contrastOf(light[k], light[next]);
       at.missing.vertices.push_back({middle, contrast * static_cast<float>(pixels.size())});
     } else if (length > kLongEdge ||
@@ -145,7 +145,8 @@ void MeshCut::visit(Visit& at, uint32_t number, const std::array<vec3, 3>& light
     return;
   }
   const auto& m = middles;
-  // The edges between middles are free; those of the node are if it is divided there.
+  // Edges between midpoints are not fixed; halves of an edge of the node are fixed if it is not
+  // divided.
   const std::array<std::array<vec3, 3>, 4> lights{
       std::array{light[0], m[0], m[2]}, std::array{m[0], light[1], m[1]},
       std::array{m[2], m[1], light[2]}, std::array{m[1], m[2], m[0]}};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t kOrderSet = 0x0d3;
 
-// Each vertex once, where it is first, with the sum of its priorities.
+// Merges requests for the same vertex: at its first position, with the sum of its priorities.
 void unite(std::vector<MeshRequest>& requests) {
   std::unordered_map<uint64_t, size_t> places;
   size_t kept = 0;

@@ -9,7 +9,7 @@ namespace lamplighter {
 
 size_t SplitTree::Hash::operator()(const Vertex& v) const {
   const auto word = [&](const vec3& a, uint32_t salt) {
-    // Adding 0 makes a negative zero positive: both compare equal.
+    // Adding 0 makes a negative zero positive, because both compare equal.
     return hash4(std::bit_cast<uint32_t>(a.x + 0.0f), std::bit_cast<uint32_t>(a.y + 0.0f),
                  std::bit_cast<uint32_t>(a.z + 0.0f), salt);
   };
@@ -53,7 +53,7 @@ void SplitTree::forgetRoots(std::span<const uint32_t> objects) {
   });
 }
 
-// The same from both sides of an edge, because sums of two numbers do not depend on their order.
+// Equal from both sides of an edge, because the sum of two numbers does not depend on their order.
 uint32_t SplitTree::middle(uint32_t a, uint32_t b) {
   const Vertex& va = vertices_[a];
   const Vertex& vb = vertices_[b];
@@ -81,7 +81,7 @@ void SplitTree::split(uint32_t number) {
 }
 
 size_t SplitTree::bytes() const {
-  // Each entry of a map has a node with its key, value and link, and a place in the table.
+  // Each entry of a map needs a node with key, value and link, and an entry of the table.
   constexpr size_t kEntry = 3 * sizeof(void*);
   return vertices_.size() * (2 * sizeof(Vertex) + kEntry) + nodes_.size() * sizeof(Node) +
          roots_.size() * kEntry;

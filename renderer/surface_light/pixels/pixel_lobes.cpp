@@ -22,8 +22,8 @@ constexpr float kLobeTurn = 40.0f;
 constexpr float kLeastRadius = 2.5f, kMostRadius = 24.0f;  // pixels
 // With one ray for each pixel: wide enough to average the 4 × 4 pixels that share a sequence.
 constexpr float kLeastRadiusOfOne = 5.0f;
-// The rest of a lobe, its wide tail, is taken as the part before it: few rays find a window there,
-// and show it as a spot (Stachowiak, "Stochastic Screen-Space Reflections", 2015).
+// The wide tail of a lobe is replaced by its other part, because few rays hit a window there, which
+// would be visible as a spot (Stachowiak, "Stochastic Screen-Space Reflections", 2015).
 constexpr float kWithoutTail = 0.95f;
 
 constexpr float kPackedMost = 65535.0f;
@@ -111,7 +111,7 @@ uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
             out.isToSky ? packedDirection(rays[k].direction) : light.placeOf(rays[k], hits[k]);
         float& radius = guides_[which[k]].radius;
         if (radius > 0.0f) continue;
-        // The width of the lobe where the ray ends, seen in the mirror.
+        // The width of the lobe at the hit of the ray, as seen in the mirror.
         const float away = glm::distance(rays[k].origin, view_.eye);
         const float seen = hits[k] ? hits[k].t / (hits[k].t + away) : 1.0f;
         radius = std::clamp(spread[k] * seen / pixelAngle,
@@ -136,7 +136,7 @@ uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
       if (!out.isUsed()) continue;
       Guide& guide = guides_[pixel];
       if (guide.normal == vec3(0.0f)) guide = {p.normal, p.object, 0.0f};
-      // Each block of 4 × 4 pixels shares out one sequence (Keller and Heidrich, "Interleaved
+      // Each block of 4 × 4 pixels shares one sequence (Keller and Heidrich, "Interleaved
       // Sampling", 2001).
       const auto ux = static_cast<uint32_t>(x), uy = static_cast<uint32_t>(y);
       const uint32_t turn = hash4(ux / 4, uy / 4, seed_, kLobeSet);
@@ -153,8 +153,9 @@ uint64_t PixelLobes::add(const RenderScene& scene, const RayCaster& caster,
   return traced;
 }
 
-// The radii are of single rays: near the legs of a table some meet the legs, and others what is far
-// behind. Harmonic means over pixels around, so that what is near stays sharp.
+// The radii are of single rays: near the legs of a table some rays hit the legs, and others
+// surfaces far behind. Takes harmonic means over the surrounding pixels, so that near objects stay
+// sharp.
 std::vector<float> PixelLobes::evenRadii() const {
   constexpr int kReach = 3;
   std::vector<float> radii(guides_.size(), 0.0f), inRows(guides_.size(), 0.0f);
@@ -183,9 +184,9 @@ std::vector<float> PixelLobes::evenRadii() const {
   return radii;
 }
 
-// Averages each pixel with those of the same reflection, `step` pixels apart. The weights of step 1
-// add up the 4 × 4 pixels that share a sequence, wherever they begin; step 4 adds up such means,
-// and step 12 theirs. Other steps leave a grid.
+// Averages each pixel with pixels of the same reflection at a distance of `step` pixels. Step 1
+// averages any 4 × 4 pixels, which share a sequence; step 4 averages such means, and step 12 those
+// of step 4. Other steps leave a visible grid.
 void PixelLobes::average(const std::vector<vec3>& from, const std::vector<float>& radii, int step,
                          std::vector<vec3>& to) const {
   constexpr std::array<float, 5> kSequence{0.5f, 1.0f, 1.0f, 1.0f, 0.5f};

@@ -18,9 +18,9 @@ namespace {
 constexpr uint32_t kRecordSet = 0x7ec;
 constexpr std::array<int, 4> kSteps{16, 8, 4, 2};  // pixels between records, by level
 constexpr size_t kMostRecords = 65536;
-// A record is used within this share of the harmonic mean distance of what it sees.
+// A record is used within this share of the harmonic mean of its hit distances.
 constexpr float kReachShare = 0.35f;
-// How fast weights fall as normals turn: to 0 at 22°.
+// Decrease of weights with the angle between normals: 0 at 22°.
 constexpr float kTurn = 14.0f;
 // Factor by which a distance from the plane of the spot counts more than one along it.
 constexpr float kOffPlane = 4.0f;
@@ -32,7 +32,7 @@ constexpr int kSmoothPasses = 4;
 // corners have small radii, and few of 64 rays hit a small bright spot.
 constexpr float kSmoothRadius = 1.5f;
 
-// Where it could be used if it were a record of the finest level [pixels].
+// Radius of use of a record of the finest level [pixels].
 constexpr float kFinestRadius = 24.0f;
 
 // Neighbouring records gather light from different directions; together, 4 × 4 cells cover all
@@ -48,7 +48,7 @@ float similarity(const SurfaceSpot& a, const SurfaceSpot& b, float radius) {
   return turn * std::max(0.0f, 1.0f - (glm::length(d) + kOffPlane * off) / radius);
 }
 
-// For spots that no record is like: narrow bevels, leaves. Over 0 for normals within 60°.
+// For spots without a similar record: narrow bevels, leaves. Larger than 0 for normals within 60°.
 float likeness(const SurfaceSpot& a, const SurfaceSpot& b, float radius) {
   const vec3 d = (b.position - a.position) / radius;
   return std::max(0.0f, glm::dot(a.normal, b.normal) - 0.5f) / (1.0f + glm::dot(d, d));
@@ -167,7 +167,7 @@ void ViewRecords::choose(const GatherScene& scene, const SurfaceLight& light,
       isWanted[cell] = covered < kCovered ? 1 : 0;
     });
     level.records.assign(cells, kNone);
-    // Where there is no room for all, some all over the picture.
+    // If there is no memory for all, some are spread over the picture.
     const auto count = static_cast<size_t>(std::ranges::count(isWanted, uint8_t{1}));
     const size_t room = std::min(count, kMostRecords - records_.size());
     size_t next = 0;
@@ -290,8 +290,8 @@ void ViewRecords::findLight(const RenderScene& scene, const SurfaceLight& light)
 }
 
 bool ViewRecords::find(int x, int y, uint32_t object, const SurfaceSpot& spot, Point& out) const {
-  // The five with the largest weights. That of the fifth is taken off the others, so that the
-  // light is continuous where another record becomes one of the four.
+  // The five with the largest weights. The weight of the fifth is subtracted from the others, so
+  // that the light is continuous where another record becomes one of the four.
   std::array<float, 5> weights{};
   std::array<uint32_t, 5> records{};
   const auto take = [&](uint32_t record, float weight) {
