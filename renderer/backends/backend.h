@@ -45,8 +45,8 @@ class Backend {
   virtual void finish() = 0;
   // Throws DeviceError if the device failed since the last call. Call it once per frame.
   virtual void checkDevice() {}
-  // Drops all kernels and their memory, for example after an exception. The next setScene() must be
-  // one in which everything is rebuilt.
+  // Discards all kernels and their memory, for example after an exception. The next setScene() must
+  // be one in which everything is rebuilt.
   void reset();
 
   // Applies the changes of the scene. `rays` is already up to date. Both are used until the next
@@ -86,14 +86,14 @@ class Backend {
   // belongs to that stage of the frame.
   virtual void beginStages() {}
   virtual void endStage(size_t /*stage*/) {}
-  // Seconds of that work, in the newest frame for which they are known; 0: none, or the processor
-  // does the work.
+  // Seconds of that work in the newest frame for which they are known; 0: no such work, or the
+  // processor does it.
   virtual double stageSeconds(size_t /*stage*/) const { return 0.0; }
 
   // --- Kernels of methods ---
 
-  // The kernels with this interface, made on the first call and told the present scene and
-  // G-buffer. Throws InputError if the backend has none; `method` is the name for the message.
+  // The kernels with this interface, created at the first call with the current scene and G-buffer.
+  // Throws InputError if the backend has none; `method` is the name for the message.
   template <typename Interface>
   Interface& kernels(const std::string& method) {
     return static_cast<Interface&>(make(typeid(Interface), method));
@@ -103,12 +103,12 @@ class Backend {
     return std::ranges::find(offers_, std::type_index(typeid(Interface)), &Offer::interface) !=
            offers_.end();
   }
-  // Null if the backend has none or nobody has asked for them yet.
+  // Null if the backend has none or they were not requested yet.
   template <typename Interface>
   Interface* kernelsInUse() {
     return static_cast<Interface*>(inUse(typeid(Interface)));
   }
-  // Adds kernels: `make` is called when a method asks for them. Replaces an earlier offer of the
+  // Adds kernels: `make` is called when a method requests them. Replaces an earlier offer of the
   // same interface.
   template <typename Interface>
   void offer(std::function<std::unique_ptr<Interface>()> make) {
@@ -129,7 +129,7 @@ class Backend {
   struct Offer {
     std::type_index interface;
     std::function<std::unique_ptr<MethodKernels>()> make;
-    std::unique_ptr<MethodKernels> kernels;  // null until a method asks for them
+    std::unique_ptr<MethodKernels> kernels;  // null until a method requests them
   };
   void offer(std::type_index interface, std::function<std::unique_ptr<MethodKernels>()> make);
   MethodKernels& make(std::type_index interface, const std::string& method);

@@ -1,6 +1,6 @@
-// The pictures that the viewport can show besides the lit one: views of the scene and of what
-// methods show (Inspection), and views that methods draw themselves (MethodInfo::views). Menu,
-// keys, actions and the command line are generated from this table.
+// The pictures that the viewport can show in addition to the lit one: views of the scene and of
+// internal data of methods (Inspection), and views that methods draw themselves
+// (MethodInfo::views). Menu, keys, actions and the command line are generated from this table.
 #pragma once
 
 #include <span>
@@ -53,7 +53,7 @@ struct DebugViewInfo {
   // Null: the picture is radiance, or the method draws it.
   ViewPicture (*draw)(const ViewSubject& subject) = nullptr;
   std::vector<Capability> needs = {};  // of the method
-  std::string method = {};             // that draws the view; "": it is no view of a method
+  std::string method = {};             // method that draws the view; "": not a view of a method
 };
 
 // In the order of the menu.

@@ -1,4 +1,4 @@
-// The views that are no radiance and not drawn by a method; each is a function of the subject. The
+// The views that are not radiance and not drawn by a method; each is a function of the subject. The
 // data that a view needs must exist (see problemOf).
 #pragma once
 

@@ -52,7 +52,7 @@ NodeId nodeOfSample(const Inspection& inspection, int chosenLight);
 void takeFromBackend(DebugView view, Backend& backend, RadianceImage& radiance,
                      ViewSubject& subject);
 
-// Draws any view that is not radiance (isRadiance). Rays go through the middles of the pixels.
+// Draws any view that is not radiance (isRadiance). Rays go through the centres of the pixels.
 ViewPicture drawView(DebugView view, const ViewSubject& subject);
 
 }  // namespace lamplighter

@@ -35,7 +35,8 @@ inline constexpr double kIrradianceUnit = 1.0 / 67108864.0;  // 2⁻²⁶
 void accumulate(std::span<const SummedLight* const> lights, const TexelPlaces& places,
                 float clampDistance, double* r, double* g, double* b);
 
-// Converts the sums to what is read: rgb is E [W/m²]. The number of texels is a multiple of eight.
+// Converts the sums to the values that are read: rgb is E [W/m²]. The number of texels is a
+// multiple of eight.
 void readSums(const double* r, const double* g, const double* b, std::span<vec4> out);
 
 }  // namespace lamplighter

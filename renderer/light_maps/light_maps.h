@@ -35,12 +35,12 @@ class LightMaps {
     bool operator==(const Options&) const = default;
   };
 
-  // Applies the changes; call once after each setScene() of the database. `bySlot`: the lights as
-  // the database has them, with their intensities. Afterwards the maps have the bits of maps
-  // computed from scratch. With a view, this holds only for tiles whose front the view may show;
-  // other tiles are updated when a view may show them and must not be read before. The spacing
-  // grows immediately when memory requires it, but shrinks only when the caller allows it, because
-  // that recomputes all maps.
+  // Applies the changes; call once after each setScene() of the database. `bySlot`: the lights of
+  // the database, with their intensities. Afterwards the maps are bitwise equal to maps computed
+  // from scratch. With a view, this holds only for tiles whose front the view may show; other tiles
+  // are updated when a view may show them and must not be read before. The spacing grows
+  // immediately when memory requires it, but shrinks only when the caller allows it, because that
+  // recomputes all maps.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
               std::span<const shared::Vpl> bySlot, const Options& options,
               const View* view = nullptr, bool mayBeFiner = true);
@@ -100,9 +100,11 @@ class LightMaps {
   }
   // The texels of an object; rgb is E [W/m²].
   std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
-  const Revision& coverage() const { return coverage_; }  // of which patches have tiles
+  const Revision& coverage() const {
+    return coverage_;
+  }  // changes with the set of patches that have tiles
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }
-  // Of which tiles an object has, and of their places in texels().
+  // Changes with the tiles of an object and their positions in texels().
   const Revision& tiling(uint32_t object) const { return objects_[object].tiling; }
   std::span<const LightMapTile> tiles(uint32_t object) const {
     return objects_[object].tiles.tiles;
@@ -132,7 +134,7 @@ class LightMaps {
     // Tiles × words_, one bit per slot: lights that are in the sums, and lights that are known to
     // vary too fast for them.
     std::vector<uint64_t> held, refused;
-    // by tile: it was not visible when something changed, so it is out of date
+    // by tile: it was not visible when something changed, so it is outdated
     std::vector<uint8_t> isLeftOut;
     std::vector<uint32_t> writes;  // by tile
     Revision revision;             // of tiles and texels
@@ -148,7 +150,7 @@ class LightMaps {
   Revision coverage_;
   size_t words_ = 0;  // per tile, for its bits
   Options options_;
-  // the present spacing, and the one that memory allows with fittingWords_
+  // the current spacing, and the one that memory allows with fittingWords_
   float texel_ = 0.0f, fitting_ = 0.0f;
   size_t fittingWords_ = 0;
   uint64_t written_ = 0;

@@ -16,7 +16,7 @@
 
 namespace lamplighter {
 
-// Holds references to these objects; they must outlive it and must not change meanwhile.
+// Keeps references to these objects; they must outlive it and must not change.
 class PatchLights {
  public:
   // maps: null if there are none; maps without memory count as none. mergesPasses: sum the lights
@@ -32,8 +32,8 @@ class PatchLights {
         lightProxies_(lightProxies),
         mergesPasses_(mergesPasses) {}
 
-  // Only the lights in these slots, and their proxies, are summed: uses() leaves the modes of other
-  // lights as they are.
+  // Only the lights in these slots, and their proxies, are summed: uses() does not change the modes
+  // of other lights.
   void sumOnly(std::vector<int> slots) { only_ = std::move(slots); }
 
   const VisibilityDatabase& visibility() const { return visibility_; }

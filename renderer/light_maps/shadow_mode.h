@@ -1,4 +1,4 @@
-// What the pixels of a patch do with a light.
+// How the pixels of a patch sum a light.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,10 @@ namespace lamplighter {
 
 enum class ShadowMode : uint8_t {
   skip,           // nothing to sum: the light is hidden, or the light map holds all of it
-  add,            // no occluder can be between
+  add,            // without a shadow map look-up: nothing can block the light
   addShadowed,    // with a shadow map look-up
-  subtractShadow  // the light map holds it unshadowed: subtract what the shadow map says is hidden
+  subtractShadow  // the light map contains it unshadowed: subtract the part that is hidden in the
+                  // shadow map
 };
 
 constexpr bool readsShadowMap(ShadowMode use) {

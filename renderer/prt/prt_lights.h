@@ -29,7 +29,7 @@ class PrtLights {
     TransferOptions transfer;
     int mostPoints = 128;        // light points per object, at most kMostLightPoints
     float clampDistance = 0.0f;  // of ShadingParams [m]
-    // limit for lightsToLeave(); from 1 on, no light is excluded because of its error
+    // limit for lightsToLeave(); for values of at least 1 no light is excluded because of its error
     float mostError = 1.0f;
     size_t mostBytes = SIZE_MAX;  // for all objects; objects that do not fit have no transfer
     bool operator==(const Options&) const = default;
@@ -41,7 +41,7 @@ class PrtLights {
 
   // By slot.
   struct Lights {
-    std::span<const shared::Vpl> vpls;  // as the database has them, with their intensities
+    std::span<const shared::Vpl> vpls;  // as in the database, with their intensities
     // false: the shadows of this light do not yet show all movements
     std::vector<bool> areUpToDate;
     std::vector<bool> areLast;  // of the last bounce, so not reflected again; empty: none is
@@ -95,7 +95,7 @@ class PrtLights {
   const Revision& coverage() const { return coverage_; }  // of the result of covers()
 
   Transfers::Progress progress() const { return transfers_.progress(); }
-  // Of the computation in the background. Objects without transfer are lit per pixel.
+  // State of the computation in the background. Objects without transfer are lit per pixel.
   std::exception_ptr takeError() { return transfers_.takeError(); }
   // Rays to VPLs since construction (rays that the database made unnecessary are not counted).
   uint64_t rays() const { return raysTraced_; }
@@ -108,7 +108,7 @@ class PrtLights {
   // whole transfer. Then r, g, b of a correction that uses only the direct transfer: plus light
   // that is not reflected, minus light whose direct part pixels sum.
   static constexpr size_t kSums = size_t{3} * kShCoefficients;
-  // How an object takes the light in a slot. `own`: not at all, and its pixels do not sum it
+  // How an object receives the light in a slot. `own`: not at all, and its pixels do not sum it
   // either. `near`: not by transfer, because the light is too near. `left`: not by transfer,
   // because of its error. `straight`: only direct light; `reflected`: only interreflection; `all`:
   // both.

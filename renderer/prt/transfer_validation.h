@@ -25,7 +25,7 @@ struct ValidationPoint {
 // For an object with this number of light points: twice as many, at least 32.
 size_t validationPointsFor(size_t lightPoints);
 
-// Distributed by area. A point takes its light as a pixel there does: from the transfer of the
+// Distributed by area. A point receives its light like a pixel there: from the transfer of the
 // vertices of its triangle, each with the light points that it blends. `own`: the scene that the
 // transfer was computed from; `isLit`: by triangle, whether it is lit by transfer. Deterministic;
 // none if no triangle is.

@@ -22,7 +22,7 @@ class Transfers {
     std::shared_ptr<const RenderScene> own;  // from ownSceneOf()
   };
 
-  // computeTransfer(), or what a test uses instead.
+  // computeTransfer(), or the replacement of a test.
   using Compute = std::function<std::optional<Transfer>(
       const RenderScene& own, const TransferOptions& options, TransferProgress* progress)>;
 
@@ -40,8 +40,8 @@ class Transfers {
   std::shared_ptr<const Transfer> find(const TransferKey& key) const;
   // Waits until all are ready. Throws the exception of the computation.
   void wait();
-  // The exception of the computation since the last call; null: there was none. What was in the
-  // queue with it is dropped.
+  // The exception of the computation since the last call; null: there was none. The rest of the
+  // queue is discarded.
   std::exception_ptr takeError();
 
   struct Progress {

@@ -1,7 +1,7 @@
-// Light linking: each light has a list of nodes that it leaves out, including all nodes below them.
+// Light linking: each light has a list of nodes that it excludes, including all their descendants.
 //
-// An object that a light leaves out receives no direct light from it, and so reflects none of it.
-// It still casts shadows in that light and receives what other objects reflect of it. In terms of
+// An object that a light excludes receives no direct light from it, and so reflects none of it. It
+// still casts shadows in that light and receives what other objects reflect of it. In terms of
 // paths: a path is excluded if its last vertex before the light is on such an object. This is the
 // same in all methods.
 //

@@ -1,8 +1,8 @@
 // The brightness for which light samples are chosen. Light is linear: if the samples of a light do
-// not depend on its exact brightness, an edit of brightness scales what they give and changes
-// nothing else. So sampling uses a white light with a reference brightness, which changes in steps
-// of a factor of 16, and a gain per channel makes it the light of the scene. A light that is
-// switched off keeps its samples, with a gain of 0.
+// not depend on its exact brightness, an edit of brightness only scales their light. So sampling
+// uses a white light with a reference brightness, which changes in steps of a factor of 16, and a
+// gain per channel makes it the light of the scene. A light that is switched off keeps its samples,
+// with a gain of 0.
 #pragma once
 
 #include <cmath>

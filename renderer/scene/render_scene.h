@@ -30,14 +30,14 @@ struct RenderObject {
   bool isEmpty() const { return indexCount == 0; }
 };
 
-// What an entry of RenderScene::objects is reserved for, while it is empty too. An entry never gets
-// another surface, so what is known of its mesh stays valid.
+// The surface for which an entry of RenderScene::objects is reserved, also while it is empty. An
+// entry never gets another surface, so data about its mesh stays valid.
 struct ObjectSlot {
   NodeId node = kNoNode;
   std::shared_ptr<const Mesh> mesh;  // null: the surface of an area light
   uint32_t primitive = 0;            // of the mesh
   AreaShape shape = AreaShape::rectangle;
-  vec2 size{0.0f};  // of the area light, when it was placed last
+  vec2 size{0.0f};  // size of the area light at the last update
   // Its part of the vertices and indices of the scene. No vertices: it was never shown.
   uint32_t firstVertex = 0, vertexCount = 0;
   uint32_t firstIndex = 0, indexCount = 0;
@@ -106,13 +106,14 @@ struct RenderScene {
 // What update() changed, for code that keeps copies of the scene (Embree, GL buffers).
 struct RenderSceneChanges {
   bool rebuilt = false;  // every array is new
-  // Objects whose vertices changed, or that came or went. New ones may be behind the last object.
+  // Objects whose vertices changed, or that were added or removed. New ones may be behind the last
+  // object.
   std::vector<uint32_t> movedObjects;
-  // Bounds of each moved object before, in the order of movedObjects; empty: it came.
+  // Bounds of each moved object before, in the order of movedObjects; empty: it was added.
   std::vector<Bounds> movedBounds;
-  bool objects = false;        // some moved objects came or went; materials may have other indices
-  bool materials = false;      // parameters of materials changed (not the number of
-                               // materials), beyond the radiance that they emit
+  bool objects = false;    // some objects were added or removed; materials may have other indices
+  bool materials = false;  // parameters of materials changed (not the number of
+                           // materials), beyond the radiance that they emit
   std::vector<int> emissions;  // sorted; materials of which only the emitted radiance changed
   // Sorted; objects whose emission was switched on or off: they have another material, which
   // differs only in its emission.
@@ -139,7 +140,7 @@ struct RenderSceneChanges {
   void merge(const RenderSceneChanges& later);
 };
 
-// Updates `render` for the changes of `scene`, in the present unit. Adding, removing, hiding and
+// Updates `render` for the changes of `scene`, in the current unit. Adding, removing, hiding and
 // showing nodes changes only their objects; other changes of structure, and everything, rebuild the
 // scene. Never throws; a scene without nodes has no objects.
 RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes);

@@ -155,7 +155,7 @@ struct Node {
   bool operator==(const Node&) const = default;
 };
 
-// What a loader keeps of a file, so that saving preserves data that it did not understand. Opaque.
+// Data of the source file, so that saving preserves members that the loader does not know. Opaque.
 class SceneSource;
 
 struct Scene {

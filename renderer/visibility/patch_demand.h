@@ -1,4 +1,4 @@
-// Which patches a view asks the visibility database for.
+// The patches that a view requests from the visibility database.
 //
 // An entry costs a test of an occlusion pyramid for each light and saves shadow map look-ups at the
 // pixels of its patch. So a root needs entries only if it covers enough pixels, and it is divided
@@ -19,20 +19,20 @@ namespace lamplighter {
 struct PatchDemand {
   static constexpr uint8_t kAllLevels = 255;
 
-  bool isForAll = true;  // all patches are asked for
+  bool isForAll = true;  // all patches are requested
   // Otherwise, by object and patch: for a root, the number of levels of its tree that may have
   // entries (0: none). Patches that are no roots have 0.
   std::vector<std::vector<uint8_t>> levels;
 
   // Least number of pixels that a root with this number of levels covers.
   static uint32_t leastPixels(uint8_t levels);
-  // Asks for what either asks for.
+  // Adds the requests of another.
   void add(const PatchDemand& other);
   bool operator==(const PatchDemand&) const = default;
 };
 
 // The patches that the view needs. Scenes with few roots need all. `mostRows`: the number of
-// patches for whose entries there is memory; the roots with the fewest pixels are left out.
+// patches for whose entries there is memory; the roots with the fewest pixels are omitted.
 PatchDemand findPatchDemand(std::span<const ObjectPatches> patches, const RayCaster& rays,
                             const View& view, size_t mostRows);
 

@@ -1,13 +1,13 @@
 // The visibility database: for each patch and VPL, whether anything can block the light (paper 1,
 // 4.3.1 and 4.5.1). It is kept between edits and updated where something changed. For an object
-// that a light leaves out (light_linking.h) the entries are `full`, as if the light were hidden.
+// that a light excludes (light_linking.h) the entries are `full`, as if the light were hidden.
 //
 // The unit of update is a column (all entries of one light). The database registers movements at
 // once, but a column that may be affected waits until it is refreshed together with the shadow map
 // of its light.
 //
-// Only patches that are asked for have entries. For the others every light is partial: their pixels
-// look into shadow maps, so the picture is the same.
+// Only requested patches have entries. For the others every light is partial: their pixels read
+// shadow maps, so the picture is the same.
 #pragma once
 
 #include <filesystem>
@@ -46,11 +46,11 @@ class VisibilityDatabase {
   // materials. Entries of new or moved objects are partial in columns that wait.
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
 
-  // Sets which patches shall have entries; at first all. Entries that are no longer asked for are
-  // dropped at once, new ones are left to answer(). Call it after each setScene().
+  // Sets which patches have entries; initially all. Entries that are no longer requested are
+  // discarded at once, new ones are computed by answer(). Call it after each setScene().
   void ask(const PatchDemand& demand);
-  // Computes the entries of patches that are asked for and have none yet, the largest first, until
-  // `mostTests` pyramids have been tested. Call it after setLights().
+  // Computes missing entries of requested patches, the largest patches first, until `mostTests`
+  // pyramids have been tested. Call it after setLights().
   void answer(const RenderScene& scene, uint64_t mostTests);
   // By patch of an object: for roots with entries, the levels of their trees that may have some, as
   // in PatchDemand; 0: no entries, or no root.
@@ -177,7 +177,7 @@ class VisibilityDatabase {
   void fillWithoutEntries(const RenderScene& scene);
   void giveRow(uint32_t object, int root);
   void dropRoot(uint32_t object, int root);
-  // Levels of a root's tree that may have entries: as asked for, and at present.
+  // Levels of a root's tree that may have entries: requested, and current.
   uint8_t levelsAsked(uint32_t object, int root) const {
     return demand_.isForAll ? PatchDemand::kAllLevels
                             : demand_.levels[object][static_cast<size_t>(root)];

@@ -1,4 +1,4 @@
-// Typed data out of buffers: accessors in all component types, normalised, strided and sparse.
+// Reads typed data from buffers: accessors of all component types, normalised, strided and sparse.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace lamplighter {
 
 // Shape of an accessor's elements.
 struct ElementLayout {
-  size_t components = 0;  // 1, 2, 3, 4, 9, 16; 0 for a type that is none
+  size_t components = 0;  // 1, 2, 3, 4, 9, 16; 0 for an unknown type
   size_t bytes = 0;       // of one element, the padding of matrix columns included
 };
 ElementLayout elementLayout(std::string_view type, size_t componentType);
 
-// How many elements an accessor has.
+// Number of elements of an accessor.
 size_t elementCount(const GltfDocument& document, size_t accessor);
 
 // All elements as floats (components that the accessor lacks are 0, 4th ones 1);

@@ -28,8 +28,8 @@ struct MaterialState {
   const Material& material;
   vec3 nominalEmission;
 };
-// Adds to `out` what changed of the material with this index: perhaps only the emission, of an area
-// light's surface, which reflects nothing, or of a material that emits before and after.
+// Adds to `out` the changes of the material with this index: only its emission if it is the surface
+// of an area light, which reflects nothing, or a material that emits before and after.
 void noteMaterial(const MaterialState& before, const MaterialState& now, int index,
                   bool isOfAreaLight, RenderSceneChanges& out);
 

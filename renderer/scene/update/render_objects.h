@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// What the objects of a document depend on, by node.
+// Input for the objects of a document, by node.
 struct SceneState {
   // unit: of the lengths of a RenderScene [m].
   SceneState(const Scene& scene, float unit);

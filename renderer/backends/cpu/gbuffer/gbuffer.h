@@ -68,7 +68,7 @@ struct GBuffer {
           geometricNormal((isFront ? 1.0f : -1.0f) * s.geometricNormal),
           emission(isFront || s.emitsBothSides ? s.emission : vec3(0.0f)) {}
   };
-  // Writes what is seen at pixel i, except its position.
+  // Writes the surface seen at pixel i, except its position.
   void setSurface(size_t i, const Surface& surface, bool isFront);
   // Whether pixel i already holds these values.
   bool shows(size_t i, const Surface& surface, bool isFront) const;

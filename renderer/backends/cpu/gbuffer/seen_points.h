@@ -1,4 +1,4 @@
-// What the pixels of a picture showed, for finding the same points in a later view.
+// The points that the pixels of a picture showed, for finding them in a later view.
 #pragma once
 
 #include <vector>

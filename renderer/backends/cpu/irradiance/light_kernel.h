@@ -3,9 +3,9 @@
 //
 // Irradiance is summed in integers: each contribution is rounded to a multiple of a unit. So lights
 // can be added and subtracted in any order, and the sum has the same bits as one computed from
-// scratch (irradiance_accumulator.h). Where there are many or dim lights, what rounding them leaves
-// is summed in a second integer: the light of a candle in a dark room beside a sunlit one can be
-// less than a unit for each of thousands of light samples.
+// scratch (irradiance_accumulator.h). If there are many or dim lights, their rounding errors are
+// summed in a second integer: the light of a candle in a dark room beside a sunlit one can be less
+// than a unit for each of thousands of light samples.
 #pragma once
 
 #include <array>

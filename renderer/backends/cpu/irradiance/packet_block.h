@@ -12,11 +12,11 @@ namespace lamplighter::cpu {
 
 // E of each pixel in fixed-point units; structure of arrays over the whole G-buffer.
 struct FixedSums {
-  // Of a unit. What the rounding of 2¹⁷ lights leaves fits into 32 bits.
+  // Fraction of a unit. The sum of the rounding errors of 2¹⁷ lights fits into 32 bits.
   static constexpr float kFinePerUnit = 0x1p14f;
 
   std::vector<int32_t> r, g, b;
-  // What rounding left, in kFinePerUnit of a unit. Empty if it is not summed.
+  // Sums of rounding errors, in units / kFinePerUnit. Empty if they are not summed.
   std::vector<int32_t> fineR, fineG, fineB;
 };
 

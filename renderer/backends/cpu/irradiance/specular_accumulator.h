@@ -18,8 +18,8 @@ class SpecularAccumulator {
  public:
   // Updates all glossy pixels as seen from `eye`. `patches` null: shadow map look-ups everywhere.
   // isKept: the same G-buffer will be updated again. Otherwise sums are faster, their last bits
-  // differ, and at most about mostLightPixels lights × pixels are summed: calls with the same
-  // arguments go on until isComplete(). Returns the number of lights × pixels that were summed.
+  // differ, and at most about mostLightPixels lights × pixels are summed: call it with the same
+  // arguments until isComplete(). Returns the number of lights × pixels that were summed.
   uint64_t update(const RenderScene& scene, const GBuffer& gbuffer, const vec3& eye,
                   std::vector<SpecularLight> lights, const SumConstants& constants,
                   float leastRoughness, const PatchLights* patches, bool isKept,
@@ -69,7 +69,7 @@ class SpecularAccumulator {
     std::vector<double> sums;  // by packet, channel and lane [W/(m² sr)]
     vec3 radiance(size_t pixel) const;
   };
-  // What becomes of the lights.
+  // How the lights are updated.
   struct Changes {
     bool all = true;  // sum all lights from scratch
     std::vector<SpecularLight> taken, added;

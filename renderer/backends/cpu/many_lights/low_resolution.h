@@ -36,7 +36,7 @@ class LowResolution {
   // Those of them that are summed: all, or fewer after limitEdges(). The others take the light of
   // the samples around them that lie on the most similar surface.
   std::span<const uint32_t> summed() const { return summed_; }
-  // Packets that are not summed take this light where it has some, instead of interpolated light;
+  // Packets that are not summed use this light where it is known, instead of interpolated light;
   // null: none. It must stay valid.
   void useCarried(const CarriedLight* carried) { carried_ = carried; }
   // Limits the work at edges: packets × lights that an update of `sums` to these lights takes.
@@ -46,12 +46,12 @@ class LowResolution {
                   std::span<const LightRecord> lights, uint64_t mostLightPixels, bool isMoving);
   // Whether there are fewer than all.
   bool isLimited() const { return summed_ != edges_; }
-  // Whether there would be, if none was summed before.
+  // Whether there would be fewer, if none had been summed before.
   bool isLong() const { return isLong_; }
   uint64_t pixelsInterpolated() const { return interpolated_; }
 
   // The samples around a pixel with their weights, which do not add up to 1. Samples on other
-  // surfaces than the pixel count little.
+  // surfaces than that of the pixel have small weights.
   struct Corner {
     int i = 0, j = 0;    // column and row of samples()
     float share = 0.0f;  // of a bilinear interpolation
@@ -100,7 +100,7 @@ class LowResolution {
   std::vector<uint32_t> edges_, summed_;
   const GBuffer* picture_ = nullptr;  // of the last update()
   const CarriedLight* carried_ = nullptr;
-  size_t nextTile_ = 0;  // where the turns go on
+  size_t nextTile_ = 0;  // next tile in turn
   bool isLong_ = false;
   uint64_t interpolated_ = 0;
 };

@@ -18,11 +18,11 @@ class PacketLimit {
 
   void lowerTo(uint64_t mostLightPixels) { left_ = std::min(left_, mostLightPixels); }
 
-  // Of these packets of a tile (one bit each) those that are summed already and stay so; none if
+  // Those of these packets of a tile (one bit each) that are already summed and remain so; none if
   // the limit is reached.
   uint32_t goOn(size_t tile, uint32_t packets);
-  // Those that are to be summed from scratch. The first call that has any gets them in any case, so
-  // that each frame gets on.
+  // The packets to sum from scratch. The first call with such packets gets them in any case, so
+  // that each frame makes progress.
   uint32_t begin(size_t tile, uint32_t packets);
   bool isReached() const { return left_ == 0; }
 
@@ -36,7 +36,7 @@ class PacketLimit {
 
   const GBuffer& gbuffer_;
   const IrradianceAccumulator& sums_;
-  uint64_t all_ = 0, changes_ = 0;  // lights of a packet that is begun, and of one that goes on
+  uint64_t all_ = 0, changes_ = 0;  // lights of a new packet, and of a continued one
   uint64_t left_ = 0;
   bool hasBegun_ = false;
 };

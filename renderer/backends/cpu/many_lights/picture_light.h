@@ -1,4 +1,4 @@
-// Where the packets of a picture take their light from.
+// The source of the light of the packets of a picture.
 #pragma once
 
 #include <cstdint>

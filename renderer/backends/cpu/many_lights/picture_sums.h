@@ -42,8 +42,8 @@ struct PictureSums {
 
   // Sums the diffuse light in blocks of `pixelsPerBlock` pixels. isQuick: some samples are
   // interpolated. mostAtEdges: limits lights × pixels of the pixels that are not interpolated.
-  // `before`: what the picture of the last sum showed, if only the view changed since; pixels that
-  // are left to later calls take its light. Null: there is no such picture, or the view is the
+  // `before`: the points of the picture of the last sum, if only the view has changed since; pixels
+  // that are left to later calls use its light. Null: there is no such picture, or the view is the
   // same.
   SumCounts sum(const Input& in, int pixelsPerBlock, bool isQuick,
                 uint64_t mostAtEdges = UINT64_MAX, const SeenPoints* before = nullptr);
@@ -55,8 +55,8 @@ struct PictureSums {
   }
   // Sums the diffuse light only in these packets (by tile, one bit each), all of their pixels.
   SumCounts sumAt(const Input& in, std::span<const uint32_t> packets);
-  // Of these packets those that the next sumAt() can sum within a limit of lights × pixels, and
-  // those that are summed.
+  // Those of these packets that the next sumAt() can sum within a limit of lights × pixels, and
+  // those that are summed already.
   std::vector<uint32_t> fitting(const Input& in, std::span<const uint32_t> packets,
                                 uint64_t mostLightPixels) const;
   // Sums the speculars, or removes them if leastRoughness is negative. isKept: as for
@@ -65,11 +65,12 @@ struct PictureSums {
                         uint64_t mostLightPixels = UINT64_MAX);
   // Sums them only at the samples of the last sum(), which was in blocks.
   uint64_t sampleSpeculars(const Input& in, float leastRoughness);
-  // Replaces Lambertian shading of glossy pixels in a picture, as the last of these two asks.
+  // Replaces Lambertian shading of glossy pixels in a picture, with the speculars of the last of
+  // these two calls.
   void addSpeculars(const GBuffer& gbuffer, Image& picture) const;
 
   PictureLight diffuse() const { return {sums, block == 1 ? nullptr : &low, nullptr, {}}; }
-  // What the last sum() interpolated.
+  // The pixels that the last sum() interpolated.
   uint64_t pixelsInterpolated() const { return block == 1 ? 0 : low.pixelsInterpolated(); }
 
   // Something that `carried` does not know changed.

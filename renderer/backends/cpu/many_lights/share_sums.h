@@ -1,5 +1,5 @@
-// Sums of the light of several groups of lights over the same pictures, apart from the sums of the
-// live picture. Where a group lights a surface evenly, jittered pictures take its light from the
+// Sums of the light of several groups of lights over the same pictures, separate from the sums of
+// the live picture. Where a group lights a surface evenly, jittered pictures use its light from the
 // picture without jitter (adaptive_antialiasing.h).
 #pragma once
 
@@ -53,7 +53,7 @@ class ShareSums {
   PictureSums still_, shifted_;  // of both G-buffers, for one group after another
   bool isShifted_ = false;       // of the last sum
   const Group* last_ = nullptr;
-  // What of the last group is not complete; the next one begins afterwards.
+  // The incomplete part of the last group; the next group begins afterwards.
   enum class Open : uint8_t { nothing, diffuse, speculars } open_ = Open::nothing;
   std::span<const uint32_t> own_;  // packets of the last sum that do not take the light of last_
 };
