@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-// Of all nodes with a mesh, without transparent panes, which receive no light.
+// All nodes with a mesh, without transparent panes, which receive no light.
 std::vector<NodeMesh> litNodes(const Scene& scene, const RenderScene& render) {
   std::vector<NodeMesh> nodes = nodeMeshes(scene, render);
   for (NodeMesh& node : nodes)
@@ -32,7 +32,7 @@ size_t trianglesOf(const Mesh& mesh) {
   return count;
 }
 
-// Of meshes with the same source: whether they are divided and lit alike.
+// Whether two meshes with the same source have the same division and light.
 bool isLitAlike(const Mesh& a, const Mesh& b) {
   return std::ranges::equal(a.primitives, b.primitives, [](const Primitive& p, const Primitive& q) {
     return p.indices == q.indices && p.colors == q.colors;

@@ -6,7 +6,7 @@ namespace lamplighter {
 
 namespace {
 
-// Of a variable; relative paths are invalid by the specification, and are ignored.
+// The path in a variable; relative paths are invalid by the specification, and are ignored.
 std::filesystem::path absolute(const char* variable) {
   const char* value = std::getenv(variable);
   const std::filesystem::path path(value != nullptr ? value : "");

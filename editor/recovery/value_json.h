@@ -32,7 +32,7 @@ T wholeOf(const Json& json) {
   damagedJournal("a value is not a whole number");
 }
 
-// Of a node, material, texture, mesh, camera, sky, state or group of lights, or bookmark.
+// Converts a node, material, texture, mesh, camera, sky, state or group of lights, or bookmark.
 template <typename T>
 Json toJson(const T& value, Blobs& blobs);
 template <typename T>

@@ -47,7 +47,7 @@ class Session {
   // Saves as glTF. Throws InputError, and leaves the document unchanged, if that fails, or if it
   // would overwrite a file that another program has changed, unless `forced`.
   void save(const std::filesystem::path& path, bool forced = false);
-  // Of the files that saving to `path` would overwrite or refer to: those that another program has
+  // The files that saving to `path` would overwrite or refer to, and that another program has
   // changed since they were read or written.
   std::vector<std::filesystem::path> changedOnDisk(const std::filesystem::path& path) const;
   bool modified() const;  // since opened or saved; render settings are not saved and do not count

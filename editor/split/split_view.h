@@ -100,7 +100,7 @@ class SplitView {
   SplitSide first_;
   std::vector<ComparedSide> others_;
   size_t next_ = 0;  // the tile that is rendered next, if it has work left
-  // Of the first side, in the last frame.
+  // State of the first side in the last frame.
   std::shared_ptr<RadianceImage> firstPicture_;
   SideInput firstSeen_;
   SideProgress firstProgress_;

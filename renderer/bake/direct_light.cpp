@@ -122,7 +122,7 @@ float DirectLight::visibleShare(const Light& light, float factor, const SurfaceS
   return all > 0.0f ? (s.visible.r + s.visible.g + s.visible.b) / all : 0.0f;
 }
 
-// Of rays with a density of cos θ/π that aim at the light, how many reach it.
+// Share of rays towards the light, with density cos θ/π, that reach it.
 float DirectLight::nearShare(const FlatLight& light, const SurfaceSpot& spot) const {
   const Frame frame(spot.normal);
   const vec3 from = spot.rayOrigin();

@@ -29,7 +29,7 @@
 
 namespace lamplighter {
 
-// Of a number. Its slider is linear unless kLogarithmic is given.
+// The range of a number. Its slider is linear unless kLogarithmic is given.
 struct ParameterRange {
   double minimum = 0.0, maximum = 0.0;
   bool logarithmic = false;

@@ -48,7 +48,7 @@ FieldDirections::FieldDirections(int divisions, uint32_t turn)
   for (int j = -f; j <= f; ++j) {
     for (int i = -f; i <= f; ++i) {
       const int k = f - std::abs(i) - std::abs(j);
-      // Of the equator, one of each two opposite ends.
+      // On the equator: only one of each two opposite ends.
       if (k < 0 || (k == 0 && (j < 0 || (j == 0 && i < 0)))) continue;
       numbers_[static_cast<size_t>((j + f) * (2 * f + 1) + i + f)] =
           static_cast<uint32_t>(directions_.size());

@@ -38,7 +38,7 @@ size_t paddedCount(const LightMapTile& tile) {
   return TexelGrid::paddedCount(tile.columns, tile.rows);
 }
 
-// Of the 64 slots from 64·w on: one bit for each slot whose light does not reach the patch.
+// For the 64 slots from 64·w: one bit for each slot whose light does not reach the patch.
 uint64_t fullOnes(std::span<const uint8_t> states, size_t w) {
   uint64_t bits = 0;
   for (size_t i = 64 * w; i < std::min(64 * w + 64, states.size()); ++i)

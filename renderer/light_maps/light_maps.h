@@ -146,7 +146,7 @@ class LightMaps {
   void resize(size_t slots);
 
   std::vector<Object> objects_;
-  std::vector<shared::Vpl> lights_;  // by slot, as they were added
+  std::vector<shared::Vpl> lights_;  // by slot, in the state that is in the sums
   Revision coverage_;
   size_t words_ = 0;  // per tile, for its bits
   Options options_;

@@ -73,7 +73,7 @@ class LightProxies {
   void add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
            bool isGroup);
 
-  // Of the table at the last update.
+  // Copies of the table at the last update.
   std::vector<shared::Vpl> shown_;
   std::vector<uint8_t> hasMap_, needsMap_;  // by slot
   float groupShare_ = 0.0f;

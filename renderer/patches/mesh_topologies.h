@@ -19,7 +19,7 @@ class MeshTopologies {
  public:
   // Meshes with fewer triangles are computed as fast as their files are read.
   static constexpr uint32_t kLeastTriangles = 1024;
-  // Of all files; the oldest are deleted first.
+  // Size limit of all files together; the oldest files are deleted first.
   static constexpr uintmax_t kMostBytes = uintmax_t{256} << 20;
 
   // An empty path: nothing is kept on disk.

@@ -173,8 +173,8 @@ class Placement {
     return std::max({moved.x, moved.y, moved.z}) <= reach_;
   }
 
-  // Of up to three near surfaces that meet at an angle, as in a corner, all combinations of sides
-  // are tried, own sides first. Another one is used if more of the level is visible from it.
+  // Tries all combinations of sides of up to three near surfaces that meet at an angle, as in a
+  // corner, own sides first. Another one is used if more of the level is visible from it.
   std::optional<Probe> besideWalls(const Surroundings& here) const {
     std::vector<Surroundings::Plane> walls;
     for (const Surroundings::Plane& plane : here.planes)

@@ -53,7 +53,7 @@ void setRays(std::span<const Ray, 8> rays, RTCRayHit8& r, int (&valid)[8]) {
   }
 }
 
-// Of eight ray segments, keeps −1 in `valid` for those that touch the box (conservative).
+// Keeps −1 in `valid` for those of eight ray segments that touch the box (conservative).
 void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
   constexpr hn::FixedTag<float, 8> tag;
   constexpr hn::FixedTag<int32_t, 8> ints;
@@ -116,8 +116,8 @@ struct RayCaster::Impl {
     return q;
   }
 
-  // Of all triangles that the ray hits at Embree's distance `t` within rounding, returns the hit
-  // with the least computed distance, then the least object and triangle.
+  // Returns the hit with the smallest computed distance, then the smallest object and triangle,
+  // among all triangles that the ray hits at Embree's distance `t` within rounding.
   Hit leastHitAt(const Ray& ray, Surfaces which, float t) const;
 
   // leastHitAt() for eight rays. Lanes of `t` that are infinite are left out.

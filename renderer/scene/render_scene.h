@@ -87,7 +87,7 @@ struct RenderScene {
   float unit = 1.0f;      // of all lengths here: a power of two, in metres of Scene
   Bounds bounds;          // of all objects
 
-  // Of all objects. O(objects).
+  // Number of triangles of all objects. O(objects).
   size_t triangleCount() const {
     size_t count = 0;
     for (const RenderObject& o : objects) count += o.triangleCount();

@@ -28,7 +28,7 @@ bool mayBeGlossy(const Material& material);
 // light is reflected diffusely, except for glossy_bounces of the reference.
 Gloss glossAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 
-// Of all triangles [m²].
+// Area of all triangles [m²].
 double areaOf(const RenderScene& scene, const RenderObject& object);
 
 // Factor of the material's emission at the point of the front face: by the emissive texture; 0 in a

@@ -12,8 +12,8 @@ std::span<const uint32_t> indicesOf(const RenderScene& scene, const RenderObject
   return std::span(scene.indices).subspan(o.firstIndex, o.indexCount);
 }
 
-// Of own space. The scale is rounded to steps of 1/256 to 1/512, so that the rounding errors of a
-// rotation make no other layout.
+// Density in own space. The scale is rounded to steps of 1/256 to 1/512, so that rounding errors of
+// a rotation do not change the layout.
 float densityOf(const OwnSpace& space, float texelsPerMetre) {
   int exponent = 0;
   const float mantissa = std::frexp(space.scale, &exponent);

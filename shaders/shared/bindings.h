@@ -33,8 +33,8 @@ SHARED_CONST int kHardPlaceBuffer = 0;  // by place, 1: a hard shadow may lie th
 // by triangle of the scene: one bit per link (light_linking.h)
 SHARED_CONST int kLeftOutBuffer = 1;
 
-// Of prefix sums and cumulative distributions (renderer/gl/scan.h). Rows of the sums and shares
-// have one more entry than the values.
+// Bindings of prefix sums and cumulative distributions (renderer/gl/scan.h). Rows of the sums and
+// shares have one more entry than the values.
 SHARED_CONST int kScanValues = 0;
 SHARED_CONST int kScanSums = 1;
 SHARED_CONST int kScanGroupSums = 2;  // by row and work group: the sum of its values

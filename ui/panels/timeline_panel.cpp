@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// Of the stages of a method, in their order. Neighbours differ in hue and in lightness.
+// Colours of the stages of a method, in their order. Neighbours differ in hue and in lightness.
 constexpr unsigned kStageColours[] = {0xd9b44a, 0x4f80c8, 0x9fc25b, 0x376c8a, 0xa0558a,
                                       0x5fb6a6, 0x8d8f98, 0xe2793f, 0x3f6b59, 0xc7a3d8,
                                       0xb5534c, 0x7fb7e6, 0xd58bbb};

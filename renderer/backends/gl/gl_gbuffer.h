@@ -25,7 +25,7 @@ class GlGBuffer {
   Image readNormals(Waits& waits) const;
   Image readAlbedo(Waits& waits) const;
 
-  // Of the view in the G-buffer.
+  // Frustum of the view in the G-buffer.
   const Frustum& frustum() const { return frustum_; }
   const View& view() const { return view_; }
   vec2 jitter() const { return jitter_; }

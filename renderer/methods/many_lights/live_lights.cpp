@@ -102,7 +102,7 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
 
 // The paths of a new set: those that have VPLs are shown if they were shown before.
 void LiveLights::takeShown(std::vector<ShownPath> shown) {
-  // Of equal paths, the one with VPLs comes first.
+  // Among equal paths, the one with VPLs comes first.
   std::sort(shown.begin(), shown.end(), [](const ShownPath& a, const ShownPath& b) {
     return a.path != b.path ? a.path < b.path : !a.isShown && b.isShown;
   });

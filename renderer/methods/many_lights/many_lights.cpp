@@ -181,8 +181,8 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   return out;
 }
 
-// Of a picture that is antialiased. Without lamps all light is on surfaces, whose picture becomes
-// smooth later.
+// Smooth edges of an antialiased picture. Without lamps all light is stored on surfaces, whose
+// picture is antialiased later.
 SmoothEdges ManyLights::smoothEdges() const {
   return lights_.live() > 0 ? SmoothEdges::all : SmoothEdges::lights;
 }

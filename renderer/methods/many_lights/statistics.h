@@ -31,7 +31,7 @@ struct ManyLightsStats : SurfaceLightStats, StoredDepthStats, LightFieldStats {
   uint64_t lightMapTexels = 0;   // in this frame: texels × lights added or subtracted
   float lightMapTexel = 0.0f;    // texel spacing that memory allows [m]; 0: no light maps
   bool lightMapsWithoutRoom = false;
-  // Of the last sum, with merged passes: the number drawn, and the number saved.
+  // Merged passes of the last sum: the number drawn, and the number saved.
   int mergedPasses = 0, passesSaved = 0;
   // share of pixels that the low-resolution pass interpolated in the last sum
   float interpolatedShare = 0.0f;
@@ -43,7 +43,7 @@ struct ManyLightsStats : SurfaceLightStats, StoredDepthStats, LightFieldStats {
   int transferObjects = 0, transferObjectsLeft = 0, transferLightsLeft = 0;
   int transferObjectsWithoutRoom = 0;
   int lightsWithoutShare = 0;  // in the settled picture, because memory is short
-  // Of a settled picture that is refined: VPLs in the mean, and the target number.
+  // For a refined picture: number of VPLs in the mean, and the target number.
   int vplsRefined = 0, vplsToRefine = 0;
   uint64_t glUploads = 0;  // in this frame: bytes of patches and lights that went to the GPU
   uint64_t glWaits = 0;    // in this frame: times that the processor waited for the GPU

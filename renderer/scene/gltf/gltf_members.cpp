@@ -47,7 +47,7 @@ constexpr Member kAccessors[] = {required(count("componentType")),
                                  count("byteOffset"),
                                  flag("normalized"),
                                  index("bufferView", "bufferViews")};
-// Of sparse.indices and sparse.values.
+// Members of sparse.indices and sparse.values.
 constexpr Member kSparse[] = {required(count("sparse.count")),
                               required(count("sparse.indices.componentType")),
                               required(index("sparse.indices.bufferView", "bufferViews")),

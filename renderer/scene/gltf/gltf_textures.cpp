@@ -160,7 +160,7 @@ std::vector<Texture> readTextures(GltfDocument& document, const std::vector<Mate
     });
   }
 
-  // Of images that nothing shows only the head is looked at.
+  // Of unused images only the header is checked.
   const std::set<size_t> unneeded = alternatives(document);
   for (size_t i = 0; i < images.size(); ++i) {
     if (!needed[i] && encoded[i].why.empty() && !unneeded.contains(i)) {

@@ -94,8 +94,8 @@ class Plan {
            (wanted.mesh || slot.shape == node.area->shape);
   }
 
-  // Of the objects behind that of the previous wanted one, the first that is reserved for it. All
-  // that follow a new one are new, too.
+  // Finds for each wanted object the first reserved one after that of the previous wanted object.
+  // All objects after a new one are new, too.
   void findObjects() {
     std::unordered_map<NodeId, std::vector<uint32_t>> ofNode;
     for (uint32_t i = 0; i < render_.slots.size(); ++i) ofNode[render_.slots[i].node].push_back(i);
@@ -124,7 +124,7 @@ class Plan {
                       state_.shining[wanted.node], firstDark);
   }
 
-  // Of the scene's materials, lit and dark.
+  // Adds the changes of the scene's materials, lit and dark.
   void noteSharedMaterials(const RenderScene& render, const RenderMaterials& before,
                            RenderSceneChanges& out) const {
     const auto note = [&](size_t was, size_t is) {

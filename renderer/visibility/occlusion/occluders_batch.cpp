@@ -53,7 +53,7 @@ class Occluders::Search {
     Mask lights;
   };
 
-  // Of the undecided lights, those that may meet something of the object.
+  // The undecided lights whose pyramid may meet a part of the object.
   Mask mayMeet(uint32_t object) const {
     const Caster& caster = occluders_.objects_[object].caster;
     return open_ & pyramids_.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius);

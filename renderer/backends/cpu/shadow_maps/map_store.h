@@ -34,7 +34,7 @@ class MapStore {
   std::span<const float> map(int slot) const {
     return slot < 0 ? std::span<const float>() : texelsOf(maps_[static_cast<size_t>(slot)]);
   }
-  // Of the slot's map, texels per side.
+  // Resolution of the map of a slot: texels per side.
   int resolution(int slot) const {
     return slot < 0 ? 0 : of(maps_[static_cast<size_t>(slot)].size).resolution();
   }

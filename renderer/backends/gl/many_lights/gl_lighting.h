@@ -23,7 +23,7 @@ class GlLighting {
   void sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
            const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
            const shared::ShadingParams& params, const PatchLights* patches);
-  // Of the last sum, if passes were merged.
+  // Passes of the last sum, if passes were merged.
   int mergedPasses() const { return mergedPasses_; }
   int passesSaved() const { return passesSaved_; }
   // Sets the irradiance to zero, for a G-buffer without a sum.
