@@ -25,10 +25,6 @@ namespace {
 
 constexpr int kCancelled = 130;  // as shells report Ctrl+C
 constexpr int kMostShards = 100000;
-// Places along a side of a flat light by which its shadows are found.
-constexpr int kMask = 32;
-// Texels from which light is gathered: side [m], and largest form factor of groups [%].
-constexpr float kGatheredTexel = 0.1f, kGatherError = 2.0f;
 // If standard error is not a terminal, prints a line after each tenth of the work.
 constexpr int kTenths = 10;
 
@@ -51,47 +47,6 @@ std::string timeText(double seconds) {
   const int s = static_cast<int>(seconds + 0.5);
   if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
   return s >= 60 ? fmt::format("{} min {:02} s", s / 60, s % 60) : fmt::format("{} s", s);
-}
-
-BakeLightOptions lightOf(const std::string& method, Settings settings) {
-  // Exact soft shadows, and fewer rays.
-  if (method == "multi_mesh" && !settings.values().contains("mask"))
-    settings.set("mask", std::to_string(kMask));
-  // Places near edges see single texels. Groups are seen by several of their texels.
-  if (method == "surface_shadow_maps" && !settings.has("texel"))
-    settings.set("texel", kGatheredTexel);
-  if (method == "surface_shadow_maps" && !settings.has("link_error"))
-    settings.set("link_error", kGatherError);
-  BakeLightOptions light;
-  if (method == "reference") {
-    const PathTracerParameters parameters = pathTracerParameters().read(settings);
-    light.method = BakeMethod::reference;
-    light.paths.bounces = parameters.bounces;
-    light.paths.seed = static_cast<uint32_t>(parameters.seed);
-    light.paths.glossyBounces = parameters.glossyBounces;
-    light.paths.leastRoughness = parameters.leastRoughness;
-    light.samples = parameters.samplesPerPixel;
-    return light;
-  }
-  // Those of the other methods have the same names.
-  const ManyLightsParameters parameters = manyLightsParameters().read(settings);
-  light.paths.bounces = parameters.bounces;  // of probes
-  light.paths.seed = static_cast<uint32_t>(parameters.seed);
-  light.counts.total = parameters.vpls;
-  light.counts.directShare = parameters.directShare;
-  light.counts.bounces = parameters.bounces;
-  light.counts.seed = static_cast<uint32_t>(parameters.seed);
-  light.clampDistance = parameters.clampDistance;
-  if (method == "multi_mesh") {
-    light.method = BakeMethod::meshes;
-    light.surface = parameters.surfaceLight(parameters.bounces, parameters.seed);
-  }
-  if (method == "surface_shadow_maps") {
-    light.method = BakeMethod::links;
-    light.surface.mask = kMask;
-    light.texels = parameters.radiosity(parameters.bounces, parameters.seed);
-  }
-  return light;
 }
 
 // Options of the texels of --visibility; parameters that the method does not have get their

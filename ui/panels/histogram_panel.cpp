@@ -56,7 +56,7 @@ void bars(const PanelContext& ui, const Histogram& h, float height) {
                                                (ImGui::GetMousePos().x - area.min.x) / width;
   const float ev = ui.session.document().render.exposureEv;
   tooltip(ui, fmt::format("{:+.1f} stops: {}. The white line is display white of a linear curve, "
-                          "the grey line is middle grey (0.18).",
+                          "the amber line is middle grey (0.18).",
                           stops, nitsText(std::exp2(stops - ev))));
 }
 
