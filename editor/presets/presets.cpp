@@ -31,7 +31,7 @@ const std::vector<Row>& rows() {
       {p["light_map_texel"], 0.2f},
       {p["block"], std::string("8")},
       {p["antialias"], 1},
-      {p["corner_light"], false},
+      {p["bias_compensation"], false},
       {p["coarse_edge"], 0.5f},
       {p["gather_rays"], 32},
       {p["link_memory"], 8},

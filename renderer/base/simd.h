@@ -27,9 +27,11 @@ template <typename V>
 struct SimdVec3 {
   V x, y, z;
 };
-HWY_INLINE Floats8 wide(float v) { return hn::Set(kTag, v); }
-HWY_INLINE SimdVec3<Floats8> wide(const vec3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
-HWY_INLINE Floats8 wideAt(const std::vector<float>& v, size_t at) {
+HWY_INLINE Floats8 broadcast(float v) { return hn::Set(kTag, v); }
+HWY_INLINE SimdVec3<Floats8> broadcast(const vec3& v) {
+  return {broadcast(v.x), broadcast(v.y), broadcast(v.z)};
+}
+HWY_INLINE Floats8 loadAt(const std::vector<float>& v, size_t at) {
   return hn::LoadU(kTag, &v[at]);
 }
 template <typename V>

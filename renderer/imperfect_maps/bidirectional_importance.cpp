@@ -79,27 +79,27 @@ std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const ViewS
   if (samples.size() == 0) return out;
   const ReflectiveMap::Texels& t = map.texels();
   const float scale = 1.0f / static_cast<float>(samples.size());
-  const Floats8 least = wide(clampDistance * clampDistance), zero = hn::Zero(kTag);
+  const Floats8 least = broadcast(clampDistance * clampDistance), zero = hn::Zero(kTag);
   tbb::parallel_for(0, map.columns(), [&](int column) {
     static_assert(ReflectiveMap::kRows % kWide == 0);
     for (int row = 0; row < ReflectiveMap::kRows; row += static_cast<int>(kWide)) {
       const size_t first = ReflectiveMap::indexOf(column, row);
-      const SimdVec3<Floats8> at{wideAt(t.x, first), wideAt(t.y, first), wideAt(t.z, first)};
-      const SimdVec3<Floats8> n{wideAt(t.nx, first), wideAt(t.ny, first), wideAt(t.nz, first)};
+      const SimdVec3<Floats8> at{loadAt(t.x, first), loadAt(t.y, first), loadAt(t.z, first)};
+      const SimdVec3<Floats8> n{loadAt(t.nx, first), loadAt(t.ny, first), loadAt(t.nz, first)};
       const Floats8 brightness =
-          dotFused({wideAt(t.red, first), wideAt(t.green, first), wideAt(t.blue, first)},
-                   wide(vec3(0.2126f, 0.7152f, 0.0722f)));
+          dotFused({loadAt(t.red, first), loadAt(t.green, first), loadAt(t.blue, first)},
+                   broadcast(vec3(0.2126f, 0.7152f, 0.0722f)));
       if (hn::AllFalse(kTag, hn::Gt(brightness, zero))) continue;
       Floats8 sum = zero;
       for (size_t i = 0; i < samples.size(); ++i) {
-        const SimdVec3<Floats8> way = wide(samples.position(i)) - at;
+        const SimdVec3<Floats8> way = broadcast(samples.position(i)) - at;
         const Floats8 d2 = dotFused(way, way);
         const Floats8 z = hn::Max(dotFused(way, n), zero);
-        const Floats8 s = hn::Max(hn::Neg(dotFused(way, wide(samples.normal(i)))), zero);
-        const Floats8 below = hn::Max(hn::Mul(d2, hn::Max(d2, least)), wide(1e-12f));
+        const Floats8 s = hn::Max(hn::Neg(dotFused(way, broadcast(samples.normal(i)))), zero);
+        const Floats8 below = hn::Max(hn::Mul(d2, hn::Max(d2, least)), broadcast(1e-12f));
         sum = hn::Add(sum, hn::Div(hn::Mul(z, s), below));
       }
-      hn::StoreU(hn::Mul(hn::Mul(sum, brightness), wide(scale)), kTag, &out[first]);
+      hn::StoreU(hn::Mul(hn::Mul(sum, brightness), broadcast(scale)), kTag, &out[first]);
     }
   });
   return out;

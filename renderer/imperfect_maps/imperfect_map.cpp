@@ -61,7 +61,7 @@ std::span<const float> ImperfectMap::render(const shared::Vpl& light, const Occl
 // On the ray through e the plane of the disc is at 1/w = (n·e)/(n·q). That point, e·w, is in the
 // disc where |e − q/w|² ≤ r²/w². Texels beyond the window fail this test on their own.
 void ImperfectMap::draw(const SplatBatch& batch, size_t lane, uint32_t point) {
-  const auto all = [&](const float(&values)[kSplatLanes]) { return wide(values[lane]); };
+  const auto all = [&](const float(&values)[kSplatLanes]) { return broadcast(values[lane]); };
   const SimdVec3<Floats8> n{all(batch.plane[0]), all(batch.plane[1]), all(batch.plane[2])};
   const SimdVec3<Floats8> twiceQ{all(batch.twiceQ[0]), all(batch.twiceQ[1]), all(batch.twiceQ[2])};
   const Floats8 beyond = all(batch.beyond), zero = hn::Zero(kTag);
@@ -94,7 +94,7 @@ void ImperfectMap::draw(const SplatBatch& batch, size_t lane, uint32_t point) {
 void ImperfectMap::fillPlanes() {
   const Floats8 zero = hn::Zero(kTag);
   for (size_t first = 0; first < side_ * side_; first += kSplatLanes) {
-    uint32_t holes = bitsOf(hn::Eq(wideAt(texels_, first), zero));
+    uint32_t holes = bitsOf(hn::Eq(loadAt(texels_, first), zero));
     for (; holes != 0; holes &= holes - 1)
       fillHole(first + static_cast<size_t>(std::countr_zero(holes)));
   }

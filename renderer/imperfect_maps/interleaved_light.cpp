@@ -12,7 +12,7 @@ namespace lamplighter {
 namespace {
 
 using cpu::kLanes;
-using Wide3 = cpu::Vector3;
+using cpu::Vector3;
 
 // Pixels in packets of eight, by quantity, coordinate and lane.
 struct alignas(32) MapPacket {
@@ -20,7 +20,7 @@ struct alignas(32) MapPacket {
   float sum[3][kLanes];
 };
 
-Wide3 load(const float (&from)[3][kLanes]) {
+Vector3 load(const float (&from)[3][kLanes]) {
   return {hn::Load(kTag, from[0]), hn::Load(kTag, from[1]), hn::Load(kTag, from[2])};
 }
 
@@ -31,17 +31,17 @@ void addLight(const cpu::LightRecord& record, const cpu::SumConstants& constants
   const cpu::SimdConstants c(constants, record.resolution);
   const Floats8 zero = hn::Zero(kTag);
   for (MapPacket& packet : packets) {
-    const Wide3 v = load(packet.position) - light.position;
-    const Wide3 geometric = load(packet.geometric);
+    const Vector3 v = load(packet.position) - light.position;
+    const Vector3 geometric = load(packet.geometric);
     const Floats8 z = dotFused(v, light.normal);
     const Floats8 s = hn::Neg(dotFused(v, load(packet.shading)));
     const Floats8 facing = hn::Neg(dotFused(v, geometric));
     auto reached = hn::And(hn::Gt(z, zero), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
     if (hn::AllFalse(kTag, reached)) continue;
-    Wide3 turned{zero, zero, zero};
+    Vector3 turned{zero, zero, zero};
     const auto occluded = cpu::hemisphereOccluded(
         light, c, v, z,
-        [&]() -> const Wide3& {
+        [&]() -> const Vector3& {
           turned = cpu::inFrameOf(light, geometric);
           return turned;
         },

@@ -27,7 +27,7 @@ HWY_INLINE Words8 mixedStep(Words8 x) {
 }
 
 // hash4() of random.h per lane.
-HWY_INLINE Words8 hash4Wide(Words8 x, Words8 y, Words8 z, Words8 w) {
+HWY_INLINE Words8 hash4Lanes(Words8 x, Words8 y, Words8 z, Words8 w) {
   x = mixedStep(x);
   y = mixedStep(y);
   z = mixedStep(z);
@@ -66,10 +66,10 @@ class PositionLanes {
 
   HWY_INLINE Ints8 of(uint32_t group) const {
     const hn::FixedTag<int32_t, 8> ints;
-    const Words8 bits = hash4Wide(hn::Set(kWordTag, group), hn::Iota(kWordTag, 0u),
-                                  hn::Set(kWordTag, seed_), hn::Set(kWordTag, kPositionSet));
-    const Floats8 u =
-        hn::Mul(hn::ConvertTo(kTag, hn::BitCast(ints, hn::ShiftRight<8>(bits))), wide(0x1p-24f));
+    const Words8 bits = hash4Lanes(hn::Set(kWordTag, group), hn::Iota(kWordTag, 0u),
+                                   hn::Set(kWordTag, seed_), hn::Set(kWordTag, kPositionSet));
+    const Floats8 u = hn::Mul(hn::ConvertTo(kTag, hn::BitCast(ints, hn::ShiftRight<8>(bits))),
+                              broadcast(0x1p-24f));
     const Floats8 place = hn::Mul(hn::Add(hn::Load(kTag, part_), u), hn::Load(kTag, size_));
     return hn::Min(hn::Add(hn::Load(ints, first_), truncateToInts(place)), hn::Load(ints, last_));
   }
@@ -87,8 +87,8 @@ HWY_INLINE hn::Mask<FloatTag> isInPlane(const SimdVec3<Floats8>& at, const SimdV
   const SimdVec3<Floats8> p = a - at, q = b - at, r = c - at, normal = cross(b - a, c - a);
   const Floats8 volume = dotFused(p, normal);
   const Floats8 reach = hn::Max(hn::Max(dotFused(p, p), dotFused(q, q)), dotFused(r, r));
-  const Floats8 allowed = hn::MulAdd(wide(kInPlane * kInPlane), reach,
-                                     hn::Mul(wide(kRounding * kRounding), dotFused(at, at)));
+  const Floats8 allowed = hn::MulAdd(broadcast(kInPlane * kInPlane), reach,
+                                     hn::Mul(broadcast(kRounding * kRounding), dotFused(at, at)));
   return hn::Le(hn::Mul(volume, volume), hn::Mul(dotFused(normal, normal), allowed));
 }
 
@@ -96,11 +96,11 @@ HWY_INLINE hn::Mask<FloatTag> isInPlane(const SimdVec3<Floats8>& at, const SimdV
 HWY_INLINE Floats8 exactSolidAngle(const RenderScene& scene, const OccluderGroups& groups,
                                    const OccluderGroup& group, const SimdVec3<Floats8>& at) {
   const uint32_t* indices = &scene.indices[scene.objects[group.object].firstIndex];
-  Floats8 sum = wide(0.0f);
+  Floats8 sum = broadcast(0.0f);
   for (const OccluderTriangle& t : groups.trianglesOf(group)) {
     const uint32_t* corner = indices + size_t{3} * t.triangle;
-    const auto a = wide(scene.positions[corner[0]]), b = wide(scene.positions[corner[1]]),
-               c = wide(scene.positions[corner[2]]);
+    const auto a = broadcast(scene.positions[corner[0]]), b = broadcast(scene.positions[corner[1]]),
+               c = broadcast(scene.positions[corner[2]]);
     sum = hn::Add(sum, hn::IfThenZeroElse(isInPlane(at, a, b, c), solidAngle8(at, a, b, c)));
   }
   return sum;
@@ -110,22 +110,22 @@ HWY_INLINE Floats8 exactSolidAngle(const RenderScene& scene, const OccluderGroup
 HWY_INLINE Floats8 farSolidAngle(const OccluderGroup& group, const SimdVec3<Floats8>& d,
                                  Floats8 square) {
   const Floats8 plain =
-      dotFused(wide(group.facing), {hn::Mul(d.x, d.x), hn::Mul(d.y, d.y), hn::Mul(d.z, d.z)});
-  const Floats8 mixed =
-      dotFused(wide(group.facingMixed), {hn::Mul(d.y, d.z), hn::Mul(d.z, d.x), hn::Mul(d.x, d.y)});
-  const Floats8 facing = hn::Max(hn::MulAdd(wide(2.0f), mixed, plain), wide(0.0f));
-  const Floats8 inverse = hn::Div(wide(1.0f), square);
-  const Floats8 projected = hn::Sqrt(hn::Mul(hn::Mul(facing, wide(group.area)), inverse));
+      dotFused(broadcast(group.facing), {hn::Mul(d.x, d.x), hn::Mul(d.y, d.y), hn::Mul(d.z, d.z)});
+  const Floats8 mixed = dotFused(broadcast(group.facingMixed),
+                                 {hn::Mul(d.y, d.z), hn::Mul(d.z, d.x), hn::Mul(d.x, d.y)});
+  const Floats8 facing = hn::Max(hn::MulAdd(broadcast(2.0f), mixed, plain), broadcast(0.0f));
+  const Floats8 inverse = hn::Div(broadcast(1.0f), square);
+  const Floats8 projected = hn::Sqrt(hn::Mul(hn::Mul(facing, broadcast(group.area)), inverse));
   return hn::Mul(projected, inverse);
 }
 
 HWY_INLINE float meanSolidAngle(const RenderScene& scene, const OccluderGroups& groups,
                                 const OccluderGroup& group, const SimdVec3<Floats8>& at) {
   if (!(group.area > 0.0f)) return 0.0f;
-  const SimdVec3<Floats8> d = wide(group.centre) - at;
+  const SimdVec3<Floats8> d = broadcast(group.centre) - at;
   const Floats8 square = dotFused(d, d);
   const float reach = kNearRadii * group.radius;
-  const bool isExact = group.count == 1 || bitsOf(hn::Le(square, wide(reach * reach))) != 0;
+  const bool isExact = group.count == 1 || bitsOf(hn::Le(square, broadcast(reach * reach))) != 0;
   const Floats8 angles =
       isExact ? exactSolidAngle(scene, groups, group, at) : farSolidAngle(group, d, square);
   return hn::GetLane(hn::SumOfLanes(kTag, angles)) / float{OccluderImportance::kPositions};

@@ -21,17 +21,17 @@ float signedSolidAngle(const vec3& at, const vec3& a, const vec3& b, const vec3&
 // are 0.
 HWY_INLINE Floats8 upperAtan2(Floats8 y, Floats8 x) {
   const Floats8 absX = hn::Abs(x);
-  const Floats8 largest = hn::Max(hn::Max(y, absX), wide(std::numeric_limits<float>::min()));
+  const Floats8 largest = hn::Max(hn::Max(y, absX), broadcast(std::numeric_limits<float>::min()));
   const Floats8 t = hn::Div(hn::Min(y, absX), largest);
   // atan(t) on [0, 1]: the coefficients of Abramowitz and Stegun (1964), formula 4.4.49.
   const Floats8 s = hn::Mul(t, t);
-  Floats8 p = wide(0.0028662257f);
+  Floats8 p = broadcast(0.0028662257f);
   for (const float c : {-0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f,
                         -0.1420889944f, 0.1999355085f, -0.3333314528f, 1.0f})
-    p = hn::MulAdd(p, s, wide(c));
+    p = hn::MulAdd(p, s, broadcast(c));
   p = hn::Mul(p, t);
-  p = hn::IfThenElse(hn::Gt(y, absX), hn::Sub(wide(0.5f * kPi), p), p);
-  return hn::IfThenElse(hn::Lt(x, wide(0.0f)), hn::Sub(wide(kPi), p), p);
+  p = hn::IfThenElse(hn::Gt(y, absX), hn::Sub(broadcast(0.5f * kPi), p), p);
+  return hn::IfThenElse(hn::Lt(x, broadcast(0.0f)), hn::Sub(broadcast(kPi), p), p);
 }
 
 // solidAngle() of a triangle and a point per lane, in single precision: the error is at most 1e-6
@@ -49,8 +49,8 @@ HWY_INLINE Floats8 solidAngle8(const SimdVec3<Floats8>& at, const SimdVec3<Float
   sum = hn::MulAdd(dotFused(p, q), lr, sum);
   sum = hn::MulAdd(dotFused(q, r), lp, sum);
   sum = hn::MulAdd(dotFused(r, p), lq, sum);
-  const Floats8 angle = hn::Mul(wide(2.0f), upperAtan2(volume, sum));
-  return hn::IfThenElseZero(hn::Gt(dotFused(normal, normal), wide(0.0f)), angle);
+  const Floats8 angle = hn::Mul(broadcast(2.0f), upperAtan2(volume, sum));
+  return hn::IfThenElseZero(hn::Gt(dotFused(normal, normal), broadcast(0.0f)), angle);
 }
 
 }  // namespace lamplighter

@@ -88,9 +88,9 @@ void PlaneLights::setEight(std::span<const SummedLight* const> lights, size_t fi
     }
   }
   const auto dot = [&](From v, const vec3& axis) {
-    return hn::MulAdd(hn::Load(kTag, from[v]), wide(axis.x),
-                      hn::MulAdd(hn::Load(kTag, from[v + 1]), wide(axis.y),
-                                 hn::Mul(hn::Load(kTag, from[v + 2]), wide(axis.z))));
+    return hn::MulAdd(hn::Load(kTag, from[v]), broadcast(axis.x),
+                      hn::MulAdd(hn::Load(kTag, from[v + 1]), broadcast(axis.y),
+                                 hn::Mul(hn::Load(kTag, from[v + 2]), broadcast(axis.z))));
   };
   const auto store = [&](Value value, Floats v) {
     hn::StoreU(v, kTag, &values_[first * kValues + value * kLanes]);
@@ -112,14 +112,14 @@ void PlaneLights::setEight(std::span<const SummedLight* const> lights, size_t fi
     store(static_cast<Value>(kRed + c), hn::IfThenElseZero(isAbove, hn::Mul(height, channel)));
   }
   const auto beside = [&](Floats foot, float least, float most) {
-    return hn::Max(hn::Max(hn::Sub(wide(least), foot), hn::Sub(foot, wide(most))), zero);
+    return hn::Max(hn::Max(hn::Sub(broadcast(least), foot), hn::Sub(foot, broadcast(most))), zero);
   };
   const Floats besideU = beside(u, places.min.x, places.max.x),
                besideW = beside(w, places.min.y, places.max.y);
   const Floats nearest2 = hn::MulAdd(besideU, besideU, hn::MulAdd(besideW, besideW, height2));
   // 0.1% tolerance for rounding, on both bounds.
-  const Floats least = hn::Max(hn::Mul(nearest2, wide(0.999f)), wide(clamp2_));
-  store(kMost, hn::IfThenElseZero(isAbove, hn::Div(hn::Mul(brightest, wide(1.001f)), least)));
+  const Floats least = hn::Max(hn::Mul(nearest2, broadcast(0.999f)), broadcast(clamp2_));
+  store(kMost, hn::IfThenElseZero(isAbove, hn::Div(hn::Mul(brightest, broadcast(1.001f)), least)));
 }
 
 // Lights without contribution are skipped.
@@ -150,12 +150,12 @@ void PlaneLights::divide(size_t count) {
 
 // The irradiance of a light whose values begin here [m⁻³ × its intensity times its height].
 HWY_INLINE Floats PlaneLights::weigh(const float* light, const Packet& at) const {
-  const auto value = [&](Value v) { return wide(light[v * kLanes]); };
+  const auto value = [&](Value v) { return broadcast(light[v * kLanes]); };
   const Floats du = hn::Sub(at.u, value(kU)), dw = hn::Sub(at.w, value(kW));
   const Floats height =
       hn::MulAdd(du, value(kAxisU), hn::MulAdd(dw, value(kAxisW), value(kAxisHeight)));
   const Floats d2 = hn::MulAdd(du, du, hn::MulAdd(dw, dw, value(kHeight2)));
-  return hn::Div(hn::Max(height, hn::Zero(kTag)), hn::Mul(d2, hn::Max(d2, wide(clamp2_))));
+  return hn::Div(hn::Max(height, hn::Zero(kTag)), hn::Mul(d2, hn::Max(d2, broadcast(clamp2_))));
 }
 
 template <size_t kPackets>
@@ -166,8 +166,8 @@ void PlaneLights::add(const Packet* at, PacketSums* sums) const {
     for (size_t p = 0; p < kPackets; ++p) r[p] = g[p] = b[p] = hn::Zero(IntTag());
     for (size_t i = run.first; i < run.last; ++i) {
       const float* const light = &values_[order_[i]];
-      const Floats red = wide(light[kRed * kLanes]), green = wide(light[kGreen * kLanes]),
-                   blue = wide(light[kBlue * kLanes]);
+      const Floats red = broadcast(light[kRed * kLanes]), green = broadcast(light[kGreen * kLanes]),
+                   blue = broadcast(light[kBlue * kLanes]);
 #pragma GCC unroll 2
       for (size_t p = 0; p < kPackets; ++p) {
         const Floats weight = weigh(light, at[p]);
@@ -198,26 +198,26 @@ Floats weigh(const SummedLight& light, const TexelPlaces& places, const Packet& 
   const vec3 v = places.origin - light.position;
   // Distance from the light along an axis.
   const auto along = [&](const vec3& axis) {
-    return hn::MulAdd(
-        at.u, wide(glm::dot(axis, places.tangent)),
-        hn::MulAdd(at.w, wide(glm::dot(axis, places.bitangent)), wide(glm::dot(axis, v))));
+    return hn::MulAdd(at.u, broadcast(glm::dot(axis, places.tangent)),
+                      hn::MulAdd(at.w, broadcast(glm::dot(axis, places.bitangent)),
+                                 broadcast(glm::dot(axis, v))));
   };
   if (light.kind == shared::kVplDirectional) {
-    const Floats side = wide(light.side), least = wide(-light.side);
+    const Floats side = broadcast(light.side), least = broadcast(-light.side);
     const Floats x = along(light.tangent), y = along(light.bitangent);
     const auto within = hn::And(hn::And(hn::Ge(x, least), hn::Lt(x, side)),
                                 hn::And(hn::Ge(y, least), hn::Lt(y, side)));
     const float cosine = std::max(glm::dot(places.normal, light.axis), 0.0f);
-    return hn::IfThenElseZero(within, wide(cosine));
+    return hn::IfThenElseZero(within, broadcast(cosine));
   }
   const float s = -glm::dot(places.normal, v);
   if (!(s > 0.0f)) return zero;
   const Floats x = along(places.tangent), y = along(places.bitangent), z = along(light.axis);
-  const Floats d2 = hn::MulAdd(x, x, hn::MulAdd(y, y, wide(s * s))), d = hn::Sqrt(d2);
-  const Floats ramp = hn::MulAdd(hn::Div(z, d), wide(light.coneScale), wide(light.side));
-  const Floats cone = hn::Min(hn::Max(ramp, zero), wide(1.0f));
+  const Floats d2 = hn::MulAdd(x, x, hn::MulAdd(y, y, broadcast(s * s))), d = hn::Sqrt(d2);
+  const Floats ramp = hn::MulAdd(hn::Div(z, d), broadcast(light.coneScale), broadcast(light.side));
+  const Floats cone = hn::Min(hn::Max(ramp, zero), broadcast(1.0f));
   return hn::IfThenElseZero(hn::Gt(z, zero),
-                            hn::Mul(hn::Mul(cone, cone), hn::Div(wide(s), hn::Mul(d2, d))));
+                            hn::Mul(hn::Mul(cone, cone), hn::Div(broadcast(s), hn::Mul(d2, d))));
 }
 
 }  // namespace

@@ -103,35 +103,38 @@ void EligibleLights::find(const TilePlace& tile, std::span<uint64_t> bits) const
     set(slot, isLightMapEligible(bySlot_[slot], tile, clampDistance_));
   const float behind = kBehindTexels * tile.spacing, nearest = kNearTexels * tile.spacing;
   const auto minus = [](const Vector3& a, const vec3& b) {
-    return Vector3{hn::Sub(a.x, wide(b.x)), hn::Sub(a.y, wide(b.y)), hn::Sub(a.z, wide(b.z))};
+    return Vector3{hn::Sub(a.x, broadcast(b.x)), hn::Sub(a.y, broadcast(b.y)),
+                   hn::Sub(a.z, broadcast(b.z))};
   };
   for (size_t i = 0; i < slots_.size(); i += hn::MaxLanes(kTag)) {
     const auto load = [i](const std::vector<float>& v) { return hn::LoadU(kTag, &v[i]); };
     const Vector3 position{load(px_), load(py_), load(pz_)},
         normal{load(nx_), load(ny_), load(nz_)};
-    Floats lowest = wide(std::numeric_limits<float>::infinity()), highest = hn::Neg(lowest);
+    Floats lowest = broadcast(std::numeric_limits<float>::infinity()), highest = hn::Neg(lowest);
     for (const vec3& corner : tile.corners) {
-      const Vector3 v{hn::Sub(wide(corner.x), position.x), hn::Sub(wide(corner.y), position.y),
-                      hn::Sub(wide(corner.z), position.z)};
+      const Vector3 v{hn::Sub(broadcast(corner.x), position.x),
+                      hn::Sub(broadcast(corner.y), position.y),
+                      hn::Sub(broadcast(corner.z), position.z)};
       const Floats height = dotUnfused(v, normal);
       lowest = hn::Min(lowest, height);
       highest = hn::Max(highest, height);
     }
-    const auto isCrossed = hn::And(hn::Lt(lowest, wide(-behind)), hn::Gt(highest, wide(behind)));
+    const auto isCrossed =
+        hn::And(hn::Lt(lowest, broadcast(-behind)), hn::Gt(highest, broadcast(behind)));
     const Vector3 v = minus(position, tile.chart.origin);
     const auto off = [](Floats p, float least, float most) {
-      return hn::Sub(p, hn::Min(hn::Max(p, wide(least)), wide(most)));
+      return hn::Sub(p, hn::Min(hn::Max(p, broadcast(least)), broadcast(most)));
     };
     const Floats x =
-        off(dotUnfused(v, wide(tile.chart.tangent)), tile.patch.min.x, tile.patch.max.x);
+        off(dotUnfused(v, broadcast(tile.chart.tangent)), tile.patch.min.x, tile.patch.max.x);
     const Floats y =
-        off(dotUnfused(v, wide(tile.chart.bitangent)), tile.patch.min.y, tile.patch.max.y);
-    const Floats height = dotUnfused(v, wide(tile.chart.normal));
+        off(dotUnfused(v, broadcast(tile.chart.bitangent)), tile.patch.min.y, tile.patch.max.y);
+    const Floats height = dotUnfused(v, broadcast(tile.chart.normal));
     const Floats distance2 =
         hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(height, height));
     const Floats bounded = hn::Max(distance2, load(least_));
-    const auto isFar = hn::Ge(distance2, wide(nearest * nearest));
-    const auto isFaint = hn::Le(load(brightest_), hn::Mul(wide(kMostBrightness), bounded));
+    const auto isFar = hn::Ge(distance2, broadcast(nearest * nearest));
+    const auto isFaint = hn::Le(load(brightest_), hn::Mul(broadcast(kMostBrightness), bounded));
     const uint32_t found = bitsOf(hn::AndNot(isCrossed, hn::And(isFar, isFaint)));
     for (size_t k = i; k < std::min(i + hn::MaxLanes(kTag), slots_.size()); ++k)
       set(slots_[k], (found >> (k - i) & 1) != 0);

@@ -19,9 +19,10 @@ HWY_INLINE V mix(V a, V b, V share) {
 struct Along {
   Floats low, share;  // the texel before the point, and the fraction towards the next
   Along(Floats p, float min, float size, float last) {
-    const Floats part = hn::Div(hn::Sub(p, wide(min)), wide(size));
-    const Floats at = hn::Mul(hn::Min(hn::Max(part, hn::Zero(kTag)), wide(1.0f)), wide(last));
-    low = hn::Min(hn::Floor(at), wide(last - 1.0f));
+    const Floats part = hn::Div(hn::Sub(p, broadcast(min)), broadcast(size));
+    const Floats at =
+        hn::Mul(hn::Min(hn::Max(part, hn::Zero(kTag)), broadcast(1.0f)), broadcast(last));
+    low = hn::Min(hn::Floor(at), broadcast(last - 1.0f));
     share = hn::Sub(at, low);
   }
 };
@@ -44,10 +45,10 @@ LightMaps::Sampler::Sampler(const LightMaps& maps, const ObjectPatches& patches,
 void LightMaps::Sampler::irradiance(const float* x, const float* y, const float* z,
                                     std::span<vec4, kPoints> e) const {
   const SimdVec3<Floats> p{hn::LoadU(kTag, x), hn::LoadU(kTag, y), hn::LoadU(kTag, z)};
-  const SimdVec3<Floats> way = p - wide(chart_.origin);
-  const Along column(dotUnfused(way, wide(chart_.tangent)), min_.x, size_.x, last_.x),
-      row(dotUnfused(way, wide(chart_.bitangent)), min_.y, size_.y, last_.y);
-  const Floats first = hn::MulAdd(row.low, wide(static_cast<float>(columns_)), column.low);
+  const SimdVec3<Floats> way = p - broadcast(chart_.origin);
+  const Along column(dotUnfused(way, broadcast(chart_.tangent)), min_.x, size_.x, last_.x),
+      row(dotUnfused(way, broadcast(chart_.bitangent)), min_.y, size_.y, last_.y);
+  const Floats first = hn::MulAdd(row.low, broadcast(static_cast<float>(columns_)), column.low);
   alignas(32) int32_t texels[kPoints];
   alignas(32) float across[kPoints], down[kPoints];
   hn::Store(truncateToInts(first), hn::FixedTag<int32_t, kPoints>(), texels);

@@ -51,9 +51,9 @@ class Sums {
 struct PacketSums {
   Sums r, g, b;
   HWY_INLINE void addRounded(Floats weight, float red, float green, float blue) {
-    r.addRounded(hn::Mul(weight, wide(red)));
-    g.addRounded(hn::Mul(weight, wide(green)));
-    b.addRounded(hn::Mul(weight, wide(blue)));
+    r.addRounded(hn::Mul(weight, broadcast(red)));
+    g.addRounded(hn::Mul(weight, broadcast(green)));
+    b.addRounded(hn::Mul(weight, broadcast(blue)));
   }
 };
 

@@ -12,11 +12,11 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p docs/images
 
 # before: without corrections; chosen: importance sampling of lights; then also the compensation of
-# the clamping bias (corner_light); refined: also refinement.
+# the clamping bias (bias_compensation); refined: also refinement.
 arguments_of() {
   case $1 in
-    before) echo --set importance=1 --set corner_light=off ;;
-    chosen) echo --set corner_light=off ;;
+    before) echo --set importance=1 --set bias_compensation=off ;;
+    chosen) echo --set bias_compensation=off ;;
     refined) echo --set refine=32768 ;;
   esac
 }

@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/corner_light/bias_compensation_filter.h"
+#include "renderer/bias_compensation/bias_compensation_filter.h"
 #include "renderer/methods/pixel_jitter.h"
 #include "renderer/surface_light/pixels/seen_triangle.h"
 
@@ -15,9 +15,11 @@ namespace {
 
 // Work per frame: lights × pixels, and texels of maps. About 80 ms on two cores.
 constexpr double kSumsAFrame = 32e6, kTracedAFrame = 600e3;
-constexpr int kCornerPixelsAFrame = 1 << 15;
+constexpr int kCompensatedPixelsPerFrame = 1 << 15;
 
-int cornerRowsAFrame(const View& view) { return std::max(1, kCornerPixelsAFrame / view.width); }
+int compensatedRowsPerFrame(const View& view) {
+  return std::max(1, kCompensatedPixelsPerFrame / view.width);
+}
 
 size_t lightsAFrame(const View& view, const ImperfectParameters& parameters, int antialias) {
   const double pixels = static_cast<double>(view.width) * static_cast<double>(view.height);
@@ -61,7 +63,7 @@ std::vector<vec3> reflectancesOf(const FrameInputs& in, const SurfacePictureOpti
 void ExactSum::restart() {
   isDone_ = false;
   summed_ = 0;
-  cornerRow_ = 0;
+  compensationRow_ = 0;
   irradiance_.clear();
 }
 
@@ -77,13 +79,13 @@ int ExactSum::framesLeft(const View& view, const ImperfectParameters& parameters
   if (isDone_) return 0;
   const size_t left = hasLights_ ? lights_.size() - summed_ : lights;
   return 1 + static_cast<int>(left / lightsAFrame(view, parameters, antialias)) +
-         (view.height - cornerRow_) / cornerRowsAFrame(view);
+         (view.height - compensationRow_) / compensatedRowsPerFrame(view);
 }
 
 uint64_t ExactSum::goOn(const FrameInputs& in, const Subject& subject, bool& gbufferIsCurrent) {
   if (summed_ < lights_.size() || irradiance_.empty())
     return addLightsOf(in, subject, gbufferIsCurrent);
-  addCorners(in, subject);
+  addCompensation(in, subject);
   return 0;
 }
 
@@ -120,12 +122,12 @@ uint64_t ExactSum::addLightsOf(const FrameInputs& in, const Subject& subject,
     for (size_t i = 0; i < sum_.pixels.size(); ++i)
       sum_.pixels[i] += share * reflectance[i] * irradiance_[k].pixels[i];
   }
-  const bool hasCorners = parameters.cornerLight && parameters.clampDistance > 0.0f;
-  isDone_ = isLast && !hasCorners;
+  const bool isCompensated = parameters.biasCompensation && parameters.clampDistance > 0.0f;
+  isDone_ = isLast && !isCompensated;
   return rays;
 }
 
-void ExactSum::addCorners(const FrameInputs& in, const Subject& subject) {
+void ExactSum::addCompensation(const FrameInputs& in, const Subject& subject) {
   std::vector<SceneVpl> lights(subject.direct.begin(), subject.direct.end());
   lights.insert(lights.end(), samples_.begin(), samples_.end());
   BiasCompensation::Options options;
@@ -137,13 +139,13 @@ void ExactSum::addCorners(const FrameInputs& in, const Subject& subject) {
   options.speculars = subject.pixels.speculars;
   options.leastRoughness = subject.pixels.leastRoughness;
   const BiasCompensation compensation(in.scene, in.services.rays(), lights, options);
-  corners_.resize(sum_.pixels.size());
-  const int last = std::min(in.view.height, cornerRow_ + cornerRowsAFrame(in.view));
-  compensation.findRows(in.view, vec2(0.0f), cornerRow_, last, corners_);
-  cornerRow_ = last;
-  if (cornerRow_ < in.view.height) return;
-  addSmoothed(corners_, filterRadius(1, in.view.height), sum_);
-  corners_ = {};
+  compensation_.resize(sum_.pixels.size());
+  const int last = std::min(in.view.height, compensationRow_ + compensatedRowsPerFrame(in.view));
+  compensation.findRows(in.view, vec2(0.0f), compensationRow_, last, compensation_);
+  compensationRow_ = last;
+  if (compensationRow_ < in.view.height) return;
+  addSmoothed(compensation_, filterRadius(1, in.view.height), sum_);
+  compensation_ = {};
   isDone_ = true;
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/corner_light/bias_compensation.h"
+#include "renderer/bias_compensation/bias_compensation.h"
 #include "renderer/imperfect_maps/interleaved_light.h"
 #include "renderer/imperfect_maps/rest_maps.h"
 #include "renderer/methods/gi_method.h"
@@ -50,7 +50,7 @@ class ExactSum {
 
  private:
   uint64_t addLightsOf(const FrameInputs& in, const Subject& subject, bool& gbufferIsCurrent);
-  void addCorners(const FrameInputs& in, const Subject& subject);
+  void addCompensation(const FrameInputs& in, const Subject& subject);
 
   bool hasLights_ = false, isDone_ = false;
   std::vector<SceneVpl> samples_;
@@ -59,8 +59,8 @@ class ExactSum {
   std::vector<Image> irradiance_;  // of each shifted picture, by the first `summed_` lights
   size_t summed_ = 0;
   Image sum_;
-  int cornerRow_ = 0;  // rows that have the light in corners
-  std::vector<BiasCompensation::Pixel> corners_;
+  int compensationRow_ = 0;  // rows that have the light in corners
+  std::vector<BiasCompensation::Pixel> compensation_;
 };
 
 }  // namespace lamplighter

@@ -16,7 +16,7 @@ ImperfectParameters ImperfectParameters::chosen() const {
   out.splats = SplatShape::billboard;
   out.fill = HoleFilling::pullPush;
   out.interleave = 8;
-  out.cornerLight = false;
+  out.biasCompensation = false;
   out.settle = ImperfectRest::imperfect;
   out.raysChoose = false;
   return out;
@@ -153,7 +153,7 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "spots. No cost in time.",
        {0.0, 10.0},
        quality},
-      {&P::cornerLight, "corner_light", "Light in corners",
+      {&P::biasCompensation, "bias_compensation", "Light in corners",
        "At rest, adds the bounced light that clamp_distance removes near surfaces. Costs rays at "
        "each pixel.",
        quality},

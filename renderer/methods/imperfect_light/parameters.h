@@ -36,7 +36,7 @@ struct ImperfectParameters : PathParameters, FrameBudgetParameters, SurfaceParam
   HoleFilling fill = HoleFilling::planes;
   int interleave = 8;
   float clampDistance = 0.5f;  // [m]
-  bool cornerLight = true;
+  bool biasCompensation = true;
   ImperfectRest settle = ImperfectRest::maps;
   int settledResolution = 128;
   bool raysChoose = true;

@@ -6,8 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/corner_light/bias_compensation_filter.h"
-#include "renderer/corner_light/near_lamps.h"
+#include "renderer/bias_compensation/bias_compensation_filter.h"
+#include "renderer/bias_compensation/near_lamps.h"
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/many_lights/add_scaled.h"
 #include "renderer/methods/pixel_jitter.h"
@@ -17,7 +17,7 @@ namespace {
 
 // Work per frame: lights × pixels summed, and pixels for which corner light is traced.
 constexpr uint64_t kLightPixelsAFrame = uint64_t{1} << 24;
-constexpr int kCornerPixelsAFrame = 1 << 16;
+constexpr int kCompensatedPixelsPerFrame = 1 << 16;
 constexpr int kLampPixelsAFrame =
     1 << 18;  // pixels per frame for which light near lamps is corrected
 
@@ -173,11 +173,11 @@ bool LightShares::correctNearLamps(const Inputs& in, vec2 jitter, float weight) 
 }
 
 void LightShares::keepWithoutCorners(const Inputs& in) {
-  withoutCorners_ = Image(in.frame.view.width, in.frame.view.height);
-  mixTo(*weightsFor(in.controls), withoutCorners_);
+  uncompensated_ = Image(in.frame.view.width, in.frame.view.height);
+  mixTo(*weightsFor(in.controls), uncompensated_);
   if (nearLamps_.empty()) return;
   for (size_t i = 0; i < nearLamps_.pixels.size(); ++i)
-    withoutCorners_.pixels[i] -= nearLamps_.pixels[i];
+    uncompensated_.pixels[i] -= nearLamps_.pixels[i];
   nearLamps_ = {};
   // Where shadow maps and rays disagree, more light may be subtracted than there was.
   for (Share& s : shares_)
@@ -186,7 +186,7 @@ void LightShares::keepWithoutCorners(const Inputs& in) {
 
 void LightShares::traceCorners(const Inputs& in) {
   const View& view = in.frame.view;
-  if (rows_ == view.height) return addCorners(in);
+  if (rows_ == view.height) return addCompensation(in);
   std::vector<SceneVpl> vpls;
   std::vector<uint32_t> groups;
   for (const LightSample& sample : in.lights.samples) {
@@ -211,26 +211,27 @@ void LightShares::traceCorners(const Inputs& in) {
   const BiasCompensation corners(in.frame.scene, in.frame.services.rays(), vpls, options);
   pixels_.resize(pixelsOf(view));
   contributions_.resize(static_cast<size_t>(view.height));
-  const int end = std::min(view.height, rows_ + std::max(1, kCornerPixelsAFrame / view.width));
+  const int end =
+      std::min(view.height, rows_ + std::max(1, kCompensatedPixelsPerFrame / view.width));
   corners.findRows(view, vec2(0.0f), rows_, end, pixels_, contributions_);
   rows_ = end;
 }
 
 // One share in each call, because smoothing takes long in large pictures.
-void LightShares::addCorners(const Inputs& in) {
+void LightShares::addCompensation(const Inputs& in) {
   const int width = in.frame.view.width, height = in.frame.view.height;
-  if (withCorners_ < shares_.size()) {
+  if (compensated_ < shares_.size()) {
     tbb::parallel_for(0, height, [&](int y) {
       const size_t row = static_cast<size_t>(y) * static_cast<size_t>(width);
       for (int x = 0; x < width; ++x) pixels_[row + static_cast<size_t>(x)].light = vec3(0.0f);
       for (const BiasCompensation::Contribution& c : contributions_[static_cast<size_t>(y)])
-        if (shareOf_[c.group] == withCorners_)
+        if (shareOf_[c.group] == compensated_)
           pixels_[c.pixel].light += mixedIn_[c.group] * c.light;
     });
-    addSmoothed(pixels_, filterRadius(1, height), shares_[withCorners_].light);
-    ++withCorners_;
+    addSmoothed(pixels_, filterRadius(1, height), shares_[compensated_].light);
+    ++compensated_;
   }
-  if (withCorners_ < shares_.size()) return;
+  if (compensated_ < shares_.size()) return;
   pixels_ = {};
   contributions_ = {};
   phase_ = Phase::done;
@@ -296,7 +297,7 @@ std::shared_ptr<RadianceImage> LightShares::mix(const View& view, const Weights&
 }
 
 size_t LightShares::bytes() const {
-  size_t bytes = withoutCorners_.pixels.size() * sizeof(vec3);
+  size_t bytes = uncompensated_.pixels.size() * sizeof(vec3);
   for (const Share& s : shares_) bytes += s.light.pixels.size() * sizeof(vec3);
   return bytes;
 }

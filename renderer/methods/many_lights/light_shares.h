@@ -10,7 +10,7 @@
 
 #include "renderer/backends/image_pool.h"
 #include "renderer/backends/many_lights_kernels.h"
-#include "renderer/corner_light/bias_compensation.h"
+#include "renderer/bias_compensation/bias_compensation.h"
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/many_lights/emission_shares.h"
 #include "renderer/sampling/light_sample_table.h"
@@ -66,7 +66,7 @@ class LightShares {
   std::shared_ptr<RadianceImage> mix(const View& view, const Weights& weights);
   // The picture before corner light and near lamps were added, with the gains at that time; empty
   // without them.
-  Image takeWithoutCorners() { return std::move(withoutCorners_); }
+  Image takeUncompensated() { return std::move(uncompensated_); }
 
   int lightsWithoutShare() const { return lightsWithoutShare_; }
   size_t bytes() const;
@@ -82,7 +82,7 @@ class LightShares {
   bool correctNearLamps(const Inputs& in, vec2 jitter, float weight);
   void keepWithoutCorners(const Inputs& in);
   void traceCorners(const Inputs& in);
-  void addCorners(const Inputs& in);  // to the next share
+  void addCompensation(const Inputs& in);  // to the next share
   void mixTo(const Weights& weights, Image& picture) const;
 
   Phase phase_ = Phase::idle;
@@ -97,10 +97,10 @@ class LightShares {
   std::vector<vec3> mixedIn_;      // by control of a share for several: its gain; otherwise 1
   EmissionShares emission_;
   int rows_ = 0;            // with corners
-  size_t withCorners_ = 0;  // number of shares with corner light
+  size_t compensated_ = 0;  // number of shares with corner light
   std::vector<BiasCompensation::Pixel> pixels_;
   std::vector<std::vector<BiasCompensation::Contribution>> contributions_;
-  Image withoutCorners_;
+  Image uncompensated_;
   ImagePool pool_;
   int lightsWithoutShare_ = 0;
 };

@@ -6,8 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/corner_light/bias_compensation_filter.h"
-#include "renderer/corner_light/near_lamps.h"
+#include "renderer/bias_compensation/bias_compensation_filter.h"
+#include "renderer/bias_compensation/near_lamps.h"
 
 namespace lamplighter {
 namespace {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/corner_light/bias_compensation.h"
+#include "renderer/bias_compensation/bias_compensation.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/sampling/light_controls.h"
 #include "renderer/sampling/light_sample_table.h"

@@ -119,9 +119,9 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
                               stats.lightMapTexel != lightMapTexel_ || in.lightOnly != lightOnly_ ||
                               in.part != part_;
   if (viewChanged) gbufferIsCurrent_ = false;
-  if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
-    corners_.forget();
-  if (in.changes.surfaces()) corners_.dropGains(in.view, in.services.movers());
+  if (view_ != in.view || shadingChanged || options.biasCompensation != options_.biasCompensation)
+    compensation_.forget();
+  if (in.changes.surfaces()) compensation_.dropGains(in.view, in.services.movers());
   const bool isReady = isAtRest() && stats.transfersPending == 0 && stats.patchesPending == 0 &&
                        (!visibility_ || demandIsCurrent_) &&
                        !(lightMaps_ && lightMaps_->couldBeFiner());
@@ -130,8 +130,9 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   const bool shadedNow = !image_ || viewChanged || lights_.changed() || imageIsStale_ ||
                          patchesChanged_ || shadingChanged || prtChanged || isHasty_ || goesOn;
   const bool samplesOtherwise = options.antialias != options_.antialias;
-  if (!holdsMix_ && (shadedNow || samplesOtherwise || options.cornerLight != options_.cornerLight ||
-                     options.shareMemory != options_.shareMemory))
+  if (!holdsMix_ &&
+      (shadedNow || samplesOtherwise || options.biasCompensation != options_.biasCompensation ||
+       options.shareMemory != options_.shareMemory))
     restartShares();
   if (shadedNow) {
     isHasty_ = image_ && view_ != in.view && options.block > 1;
@@ -140,7 +141,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
     lights_.clearChanged();
     imageIsStale_ = patchesChanged_ = false;
     samples_ = 0;
-    corners_.outdate();
+    compensation_.outdate();
   }
   const bool refinesOtherwise = options.refinement() != options_.refinement() || samplesOtherwise;
   options_ = options;
@@ -152,21 +153,21 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   // 6. If nothing else is pending, find the light of corners and antialias: one sample per frame.
   if (samplesOtherwise) {
     samples_ = 0;
-    corners_.outdate();
+    compensation_.outdate();
   }
   const int samples = options.antialias > 1 ? options.antialias : 0;
   if (usesShares(in, options)) {
     if (isReady && !shadedNow) goOnWithShares(in, options, stages);
     out.settled = isReady && !isHasty_ && shares_.isDone() && !holdsMix_;
-    out.radiance = options.cornerLight ? corners_.scale(in.backend, image_) : image_;
+    out.radiance = options.biasCompensation ? compensation_.scale(in.backend, image_) : image_;
     if (out.settled || holdsMix_) out.radiance = mixed_;
   } else {
     if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
     out.settled = isReady && !isHasty_ && !isLimited_ && samples_ == samples;
     out.radiance = out.settled && samples > 0 ? mean_ : image_;
-    if (options.cornerLight) {
+    if (options.biasCompensation) {
       out.radiance = fillCorners(in, options, out.radiance, out.settled, stages);
-      out.settled = out.settled && corners_.isWhole(in.view);
+      out.settled = out.settled && compensation_.isWhole(in.view);
     }
   }
 

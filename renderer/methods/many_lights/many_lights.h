@@ -146,7 +146,7 @@ class ManyLights final : public GiMethod {
   // mixed_ is shown until new shares are complete; the current shares are of other samples.
   bool holdsMix_ = false, sharesAreOld_ = false;
   RenderSceneChanges unsampled_;  // changes that the light samples do not have yet
-  LiveBiasCompensation corners_;
+  LiveBiasCompensation compensation_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;
   BouncedPicture meshes_;       // with indirect = meshes

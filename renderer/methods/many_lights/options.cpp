@@ -48,7 +48,7 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines, boo
     directShare = 1.0f;
   }
   if (!useVisibility()) forgoVisibility();
-  if (clampDistance <= 0.0f) cornerLight = false;
+  if (clampDistance <= 0.0f) biasCompensation = false;
   if (!refines) refine = 0;
   groupShare *= 0.01f;  // percent to a share of 1
   // Each interreflection within an object counts as a bounce, like a bounce of a VPL.
@@ -85,7 +85,7 @@ ImperfectParameters ManyLightsOptions::imperfect() const {
   out.bounces = imperfectBounces;
   out.updates = updates;
   out.clampDistance = clampDistance;
-  out.cornerLight = cornerLight;
+  out.biasCompensation = biasCompensation;
   return out;
 }
 

@@ -194,7 +194,7 @@ const ParameterTable<P>& manyLightsParameters() {
        "Clamp distance",
        "m",
        "Minimum distance in the 1/d² term of a light sample. Larger values hide bright spots near "
-       "light samples but remove light from corners (see corner_light). No cost in time.",
+       "light samples but remove light from corners (see bias_compensation). No cost in time.",
        {0.0, 10.0},
        quality},
       {&P::shadowBias,
@@ -289,7 +289,7 @@ const ParameterTable<P>& manyLightsParameters() {
        "settled. 1: off.",
        {1, 256, kLogarithmic},
        picture},
-      {&P::cornerLight, "corner_light", "Corner light",
+      {&P::biasCompensation, "bias_compensation", "Corner light",
        "Adds the light that clamp_distance removed, mostly in corners, once the picture is "
        "settled: "
        "one short ray per pixel, then smoothed. Near lamps of few triangles and even radiance, it "

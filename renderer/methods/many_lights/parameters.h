@@ -51,7 +51,7 @@ struct ManyLightsParameters : LightSumParameters,
   int mapMemory = 512;       // MiB
   int lightsPerPass = 1024;  // VPLs per draw of the gl backend; does not change a picture
   int antialias = 4;         // G-buffers averaged when the lights are settled
-  bool cornerLight = true;
+  bool biasCompensation = true;
   int shareMemory = 512;  // MiB
   int refine = 65536;     // total number of VPLs; used only if the caller allows refinement
   bool operator==(const ManyLightsParameters&) const = default;

@@ -5,7 +5,7 @@
 
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
-#include "renderer/corner_light/bias_compensation_filter.h"
+#include "renderer/bias_compensation/bias_compensation_filter.h"
 #include "renderer/methods/many_lights/add_scaled.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_footprints.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/backends/many_lights_kernels.h"
-#include "renderer/corner_light/bias_compensation.h"
+#include "renderer/bias_compensation/bias_compensation.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/sampling/vpl_set.h"
 

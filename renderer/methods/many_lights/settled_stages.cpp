@@ -10,14 +10,15 @@ namespace lamplighter {
 namespace {
 
 // Rays per pixel for bias compensation; pixels share them.
-constexpr uint32_t kCornerPaths = 1;
+constexpr uint32_t kCompensationPaths = 1;
 
-BiasCompensation::Options cornerOptions(const FrameInputs& in, const ManyLightsOptions& options) {
+BiasCompensation::Options compensationOptions(const FrameInputs& in,
+                                              const ManyLightsOptions& options) {
   const bool isBounced = options.directShare < 1.0f && in.part != LightPart::direct;
   return {isBounced ? options.bounces : 0,
           (options.directShare > 0.0f || options.bounces == 0) && in.part != LightPart::indirect,
           options.clampDistance,
-          kCornerPaths,
+          kCompensationPaths,
           static_cast<uint32_t>(options.seed),
           0,
           in.lightOnly,
@@ -46,7 +47,8 @@ bool ManyLights::isSamePicture(const FrameInputs& in, const Options& options) co
          (in.changes.none() || in.changes.onlyBrightness()) && in.lightOnly == lightOnly_ &&
          part_ == LightPart::all && options.lightSums() == options_.lightSums() &&
          options.counts() == options_.counts() && options.antialias == options_.antialias &&
-         options.cornerLight == options_.cornerLight && options.shareMemory == options_.shareMemory;
+         options.biasCompensation == options_.biasCompensation &&
+         options.shareMemory == options_.shareMemory;
 }
 
 // Whether the light samples and their maps are in their wanted state.
@@ -95,12 +97,12 @@ void ManyLights::goOnWithShares(const FrameInputs& in, const Options& options, S
   const LightProxies::Groups groups = groupsOf(in, options.groupShare, lights_.slots());
   LightShares::Options wanted{options.shareBytes(),      options.antialias,
                               shadingOf(options, false), options.mergePasses,
-                              options.cornerLight,       cornerOptions(in, options)};
+                              options.biasCompensation,  compensationOptions(in, options)};
   gbufferIsCurrent_ = false;
   const bool traces = shares_.tracesCorners();
   shares_.goOn({in, *kernels_, paths_.lights(), lights_.table(), controls_, visibility_.get(),
                 groups, wanted});
-  stages.end(traces ? kCornersStage : kSharesStage);
+  stages.end(traces ? kBiasCompensationStage : kSharesStage);
   if (shares_.isDone()) {
     mixShares(in, *shares_.weightsFor(controls_));
     holdsMix_ = false;
@@ -110,8 +112,8 @@ void ManyLights::goOnWithShares(const FrameInputs& in, const Options& options, S
 
 void ManyLights::mixShares(const FrameInputs& in, const LightShares::Weights& weights) {
   mixed_ = shares_.mix(in.view, weights);
-  if (const Image without = shares_.takeWithoutCorners(); !without.empty())
-    corners_.takeGains(without, mixed_->pixels());
+  if (const Image without = shares_.takeUncompensated(); !without.empty())
+    compensation_.takeGains(without, mixed_->pixels());
 }
 
 void ManyLights::refineSettled(const FrameInputs& in, const Options& options, bool shadedNow,
@@ -144,16 +146,17 @@ void ManyLights::refine(const FrameInputs& in, const Options& options, StageTime
 std::shared_ptr<RadianceImage> ManyLights::fillCorners(
     const FrameInputs& in, const Options& options, const std::shared_ptr<RadianceImage>& picture,
     bool isSmooth, StageTimer& stages) {
-  if (isSmooth && !corners_.isWhole(in.view)) {
+  if (isSmooth && !compensation_.isWhole(in.view)) {
     const auto reflecting =
         prt_ && in.part == LightPart::all ? prt_->reflecting() : std::vector<uint8_t>();
-    BiasCompensation::Options corner = cornerOptions(in, options);
+    BiasCompensation::Options corner = compensationOptions(in, options);
     corner.reflectsWithin = reflecting;
-    corners_.goOn(in, paths_.lights(), lights_.table(), controls_, corner);
-    if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
-    stages.end(kCornersStage);
+    compensation_.goOn(in, paths_.lights(), lights_.table(), controls_, corner);
+    if (compensation_.isWhole(in.view)) whole_ = compensation_.addTo(*picture);
+    stages.end(kBiasCompensationStage);
   }
-  return isSmooth && corners_.isWhole(in.view) ? whole_ : corners_.scale(in.backend, picture);
+  return isSmooth && compensation_.isWhole(in.view) ? whole_
+                                                    : compensation_.scale(in.backend, picture);
 }
 
 void ManyLights::addSample(const FrameInputs& in, const Options& options, StageTimer& stages) {

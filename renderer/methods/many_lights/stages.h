@@ -34,8 +34,9 @@ inline constexpr StageSpec kAntialiasingStage{"antialiasing", "Antialiasing",
 inline constexpr StageSpec kSharesStage{
     "light shares", "Light shares",
     "Finding what each light adds to a settled picture, antialiased, and adding it up."};
-inline constexpr StageSpec kCornersStage{"corners", "Corners",
-                                         "Tracing the light that the clamp removes near surfaces."};
+inline constexpr StageSpec kBiasCompensationStage{
+    "bias_compensation", "Bias compensation",
+    "Tracing the light that the clamp removes near surfaces."};
 inline constexpr StageSpec kMeshesStage{"meshes", "Light on surfaces",
                                         "Finding bounced light on the surfaces, and showing it.",
                                         StageWork::surfaces};
@@ -44,8 +45,9 @@ inline constexpr StageSpec kRefinementStage{
 
 // In the order of a frame.
 inline constexpr StageSpec kManyLightsStages[] = {
-    kLightSamplesStage, kVisibilityStage, kShadowMapsStage, kFinerMapsStage,   kLightMapsStage,
-    kTransferStage,     kGBufferStage,    kLightSumsStage,  kCompositionStage, kAntialiasingStage,
-    kSharesStage,       kCornersStage,    kMeshesStage,     kRefinementStage};
+    kLightSamplesStage, kVisibilityStage,   kShadowMapsStage, kFinerMapsStage,
+    kLightMapsStage,    kTransferStage,     kGBufferStage,    kLightSumsStage,
+    kCompositionStage,  kAntialiasingStage, kSharesStage,     kBiasCompensationStage,
+    kMeshesStage,       kRefinementStage};
 
 }  // namespace lamplighter

@@ -28,8 +28,8 @@ void PointBlocks::geometries(const shared::Vpl& vpl, float clampDistance, size_t
                          : 0.0f;
     return;
   }
-  const Floats8 zero = hn::Zero(kTag), least = wide(clampDistance * clampDistance);
-  const SimdVec3<Floats8> place = wide(vec3(vpl.position)), axis = wide(vec3(vpl.normal));
+  const Floats8 zero = hn::Zero(kTag), least = broadcast(clampDistance * clampDistance);
+  const SimdVec3<Floats8> place = broadcast(vec3(vpl.position)), axis = broadcast(vec3(vpl.normal));
   for (size_t i = first * kLanes; i < end * kLanes; i += kLanes, out += kLanes) {
     const auto load = [&](const Vectors& v) {
       return SimdVec3<Floats8>{hn::Load(kTag, &v.x[i]), hn::Load(kTag, &v.y[i]),

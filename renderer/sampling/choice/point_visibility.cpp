@@ -37,7 +37,7 @@ bool isSamePlace(const shared::Vpl& a, const shared::Vpl& b) {
 // products with the segment (Gottschalk, Lin and Manocha, "OBBTree", 1996).
 hn::Mask<FloatTag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
   const Wide along{hn::Abs(half.x), hn::Abs(half.y), hn::Abs(half.z)};
-  const Wide e = wide(size);
+  const Wide e = broadcast(size);
   const auto isNear = [](Floats off, Floats way, Floats reach) {
     return hn::Le(hn::Abs(off), hn::Add(way, reach));
   };
@@ -92,12 +92,12 @@ void PointVisibility::outdate(Row& row, std::span<const Obstacle> obstacles) con
     };
     const PointBlocks::Vectors& positions = points_.positions();
     const Wide point{load(positions.x), load(positions.y), load(positions.z)};
-    const Wide way = wide(light) - point;
-    const Floats half = wide(0.5f);
+    const Wide way = broadcast(light) - point;
+    const Floats half = broadcast(0.5f);
     const Wide halfWay{hn::Mul(way.x, half), hn::Mul(way.y, half), hn::Mul(way.z, half)};
     for (const Obstacle& o : obstacles) {
       const vec3 centre = o.box.centre();
-      const Wide middle = wide(light - centre) - halfWay;
+      const Wide middle = broadcast(light - centre) - halfWay;
       const vec3 size = 0.5f * (o.box.max - o.box.min) + 2.0f * (rounding + o.rounding);
       row.known[b] &= static_cast<uint8_t>(~bitsOf(mayTouchBox(middle, halfWay, size)));
     }
@@ -168,7 +168,7 @@ void PointVisibility::take(const shared::Vpl& light, float clampDistance, size_t
 }
 
 void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
-  const Floats brightness = wide(luminance(row.vpl.intensity));
+  const Floats brightness = broadcast(luminance(row.vpl.intensity));
   const auto link = static_cast<uint32_t>(row.vpl.footprint.y);
   for (size_t b = 0; b < kBlocks; ++b) {
     const size_t first = b * kLanes;

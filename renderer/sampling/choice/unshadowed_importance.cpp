@@ -42,7 +42,7 @@ std::vector<float> unshadowedImportance(std::span<const SceneVpl> candidates,
         for (size_t b = 0; b < blocks; ++b)
           for (uint32_t rest = at.leftOut(link, b), j = 0; rest != 0; rest >>= 1, ++j)
             if ((rest & 1u) != 0) light[b * PointBlocks::kLanes + j] = 0.0f;
-      const Floats8 brightness = wide(luminance(vpl.intensity));
+      const Floats8 brightness = broadcast(luminance(vpl.intensity));
       float* const row = &irradiance[i * width];
       for (size_t j = 0; j < width; j += PointBlocks::kLanes) {
         const Floats8 value = hn::Mul(brightness, hn::Load(kTag, &light[j]));

@@ -21,24 +21,24 @@ constexpr float kAcross = 8.0f;
 constexpr float kMostTimes = 2.0f;
 
 float farthestStep(std::span<const MoverPlace> before, std::span<const MoverPlace> now,
-                   const MotionMetric& way) {
+                   const MotionMetric& metric) {
   float step = 0.0f;
   for (size_t m = 0; m < now.size(); ++m)
-    step = std::max(step, farthestStep(before[m], now[m], way));
+    step = std::max(step, farthestStep(before[m], now[m], metric));
   return step;
 }
 
 }  // namespace
 
-float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& way) {
+float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& metric) {
   if (before.groups.size() != now.groups.size() || before.caster.box.empty())
     return std::numeric_limits<float>::infinity();
-  float farthest = way.lengthOf(now.caster.box.centre() - before.caster.box.centre()) +
-                   way.most() * std::abs(now.caster.radius - before.caster.radius);
+  float farthest = metric.lengthOf(now.caster.box.centre() - before.caster.box.centre()) +
+                   metric.most() * std::abs(now.caster.radius - before.caster.radius);
   for (size_t i = 0; i < now.groups.size(); ++i) {
     const Bounds &a = before.groups[i], &b = now.groups[i];
-    farthest = std::max(farthest, way.lengthOf(b.centre() - a.centre()) +
-                                      0.5f * way.most() * glm::distance(a.extent(), b.extent()));
+    farthest = std::max(farthest, metric.lengthOf(b.centre() - a.centre()) +
+                                      0.5f * metric.most() * glm::distance(a.extent(), b.extent()));
   }
   return farthest;
 }
@@ -51,19 +51,19 @@ MoverPath::Mark MoverPath::makeVoid() {
 // Whether the metric changes with this step.
 bool MoverPath::turn(std::span<const MoverPlace> before, std::span<const MoverPlace> now) {
   const vec3 shift = now[0].caster.box.centre() - before[0].caster.box.centre();
-  MotionMetric way = way_;
+  MotionMetric metric = metric_;
   if (const float length = glm::length(shift); length > 0.0f) {
     const vec3 direction = shift / length;
     const auto isAlong = [&](const vec3& other) {
       return std::abs(glm::dot(direction, other)) > kStraight;
     };
-    if (isAlong(direction_) && !isAlong(way.axis)) way = {direction, kAcross};
+    if (isAlong(direction_) && !isAlong(metric.axis)) metric = {direction, kAcross};
     direction_ = direction;
   }
-  if (farthestStep(before, now, way) > kMostTimes * farthestStep(before, now, MotionMetric()))
-    way = MotionMetric();
-  if (way == way_) return false;
-  way_ = way;
+  if (farthestStep(before, now, metric) > kMostTimes * farthestStep(before, now, MotionMetric()))
+    metric = MotionMetric();
+  if (metric == metric_) return false;
+  metric_ = metric;
   return true;
 }
 
@@ -73,7 +73,7 @@ MoverPath::Mark MoverPath::advance(std::span<const MoverPlace> before,
   const bool turns = turn(before, now);
   float size = std::numeric_limits<float>::max();
   for (const MoverPlace& place : now) size = std::min(size, place.caster.radius);
-  const Mark by = advance(farthestStep(before, now, way_), size);
+  const Mark by = advance(farthestStep(before, now, metric_), size);
   return turns ? makeVoid() : by;
 }
 

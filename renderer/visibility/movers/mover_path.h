@@ -20,7 +20,7 @@ struct MoverPlace {
 };
 // Largest distance that the bounding sphere or one of the boxes moved or grew, in the metric `way`
 // [m]. Infinite if the numbers of boxes differ.
-float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& way);
+float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& metric);
 
 class MoverPath {
  public:
@@ -31,15 +31,15 @@ class MoverPath {
 
   // Adds one step of all movers. Returns the amount by which all marks must be lowered, down to 0.
   Mark advance(std::span<const MoverPlace> before, std::span<const MoverPlace> now);
-  // The same, given that no box moved or grew by more than `distance`, in the metric of way() [m].
-  // `size`: radius of the smallest mover [m].
+  // The same, given that no box moved or grew by more than `distance`, in the metric of metric()
+  // [m]. `size`: radius of the smallest mover [m].
   Mark advance(float distance, float size);
 
   // The present metric. It changes only when advance() invalidates all marks.
-  const MotionMetric& way() const { return way_; }
+  const MotionMetric& metric() const { return metric_; }
 
   size_t steps() const { return steps_; }
-  float lastStep() const { return lastStep_; }  // in the metric of way() [m]
+  float lastStep() const { return lastStep_; }  // in the metric of metric() [m]
 
   // The mark up to which a result is valid that holds while the distance is less than `slack` [m].
   Mark markAfter(float slack) const {
@@ -60,7 +60,7 @@ class MoverPath {
   float count_ = 0.0f;  // metres per count; 0: not known yet
   size_t steps_ = 0;
   float lastStep_ = 0.0f;
-  MotionMetric way_;
+  MotionMetric metric_;
   vec3 direction_{0.0f};  // of the previous step
 };
 

@@ -32,8 +32,8 @@ MoverShadows::MoverShadows(const Occluders& occluders, std::span<const uint32_t>
                                                  return occluders.isOfGroups(mover) &&
                                                         !occluders.mayHide(mover);
                                                })),
-      way_(path.way()),
-      enough_(path.way() == MotionMetric() ? 0.0f : kStepsToStand * path.lastStep()),
+      metric_(path.metric()),
+      enough_(path.metric() == MotionMetric() ? 0.0f : kStepsToStand * path.lastStep()),
       turn_(path.steps()) {
   if (!isUseful_) return;
   lights_.reserve(lights.size());
@@ -135,7 +135,7 @@ MoverShadows::Answer MoverShadows::of(const PatchRegion& region,
   std::array<const PyramidApex*, kLights> apices;
   for (size_t i = 0; i < lights.size(); ++i) apices[i] = &lights_[lights[i].slot];
   PyramidBatch pyramids(LightPacket({apices.data(), lights.size()}), region);
-  pyramids.weighBy(way_);
+  pyramids.weighBy(metric_);
   Answer answer;
   answer.slack.fill(std::numeric_limits<float>::max());
   for (size_t m = 0; m < movers_.size(); ++m) ask({region, lights, pyramids}, m, answer);

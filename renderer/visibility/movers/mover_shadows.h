@@ -63,7 +63,7 @@ class MoverShadows {
 
   std::vector<Mover> movers_;
   bool isUseful_;
-  MotionMetric way_;
+  MotionMetric metric_;
   float enough_;  // desired slack of results, if it is cheap to reach [m]
   size_t turn_;
   std::vector<PyramidApex> lights_;

@@ -33,17 +33,17 @@ uint32_t ShadowVolumeX8::mayFallOn(const vec3& centre, float radius) const {
 void ShadowVolumeX8::slack(const vec3& centre, float radius, Lanes& out) const {
   const Floats8 zero = hn::Zero(kTag), sine = load(sine_), cosine = load(cosine_);
   const Floats8 nearest = load(nearest_), before = load(before_), size = load(radius_);
-  const SimdVec3<Floats8> v = wide(centre) - load(apex_);
+  const SimdVec3<Floats8> v = broadcast(centre) - load(apex_);
   const Floats8 distance2 = dotFused(v, v), along = dotFused(v, load(axis_));
   const Floats8 across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, distance2), zero));
-  const Floats8 inside = hn::NegMulAdd(across, cosine, hn::MulAdd(along, sine, wide(radius)));
+  const Floats8 inside = hn::NegMulAdd(across, cosine, hn::MulAdd(along, sine, broadcast(radius)));
   const Floats8 sideways = hn::Div(hn::Mul(inside, hn::Mul(hn::Add(nearest, size), cosine)),
                                    hn::MulAdd(along, cosine, hn::Mul(across, sine)));
-  const Floats8 past = hn::Sub(hn::Add(hn::Sqrt(distance2), wide(radius)), nearest);
+  const Floats8 past = hn::Sub(hn::Add(hn::Sqrt(distance2), broadcast(radius)), nearest);
   const Floats8 ofCone = hn::Min(hn::Min(sideways, past), hn::Min(before, size));
   const Floats8 least = hn::IfThenElseZero(hn::Gt(along, zero), ofCone);
   // The caster surrounds the light: the shadow is everywhere.
-  const auto isAround = hn::Lt(nearest, wide(-std::numeric_limits<float>::max()));
+  const auto isAround = hn::Lt(nearest, broadcast(-std::numeric_limits<float>::max()));
   hn::Store(hn::Max(hn::IfThenElse(isAround, before, least), zero), kTag, out.data());
 }
 

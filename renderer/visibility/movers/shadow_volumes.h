@@ -35,8 +35,8 @@ class ShadowVolumes {
       : groups_((count + ShadowVolumeX8::kLanes - 1) / ShadowVolumeX8::kLanes) {}
 
   // Not for parallel lights.
-  void set(size_t i, const ShadowVolume& reach) {
-    groups_[i / ShadowVolumeX8::kLanes].set(i % ShadowVolumeX8::kLanes, reach.cone());
+  void set(size_t i, const ShadowVolume& volume) {
+    groups_[i / ShadowVolumeX8::kLanes].set(i % ShadowVolumeX8::kLanes, volume.cone());
   }
   // For the wanted shadow volumes: whether the shadow may fall on part of the sphere. Bit i is the
   // volume with index 64 * word + i. Bit-equal to ShadowVolume::mayFallOn().

@@ -46,7 +46,7 @@ HWY_INLINE LightLanes<OneLight> lanesOf(const PyramidApex& light, const PatchReg
 
 HWY_INLINE LightLanes<FloatTag> lanesOf(const LightPacket& lights, const PatchRegion& region) {
   return {load(lights.position), load(lights.normal),
-          hn::Max(load(lights.rounding), wide(region.rounding)), lights.all(), false};
+          hn::Max(load(lights.rounding), broadcast(region.rounding)), lights.all(), false};
 }
 
 // From a point to the light, or towards the light if it is parallel.

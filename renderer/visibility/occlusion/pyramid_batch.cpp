@@ -58,34 +58,36 @@ PyramidBatch::PyramidBatch(const LightPacket& lights, const PatchRegion& region)
   store(planes_[0], lightPlane(lanes));
   const PlaneLanes<Vec> patch = patchPlane(lanes, region);
   store(planes_[1], patch);
-  const SimdVec3<Vec> middle = wide(region.middle());
+  const SimdVec3<Vec> middle = broadcast(region.middle());
   for (size_t i = 0; i < 4; ++i) {
-    const auto at = [&](const auto& v) { return wide(vec3(v[0][i], v[1][i], v[2][i])); };
+    const auto at = [&](const auto& v) { return broadcast(vec3(v[0][i], v[1][i], v[2][i])); };
     const SimdVec3<Vec> from = at(region.from);
-    store(planes_[2 + i], sidePlanes(kTag, from, at(region.sides), from - lanes.apex, middle,
-                                     patch.normal, wide(region.thickness), lanes.margin, false));
+    store(planes_[2 + i],
+          sidePlanes(kTag, from, at(region.sides), from - lanes.apex, middle, patch.normal,
+                     broadcast(region.thickness), lanes.margin, false));
   }
 }
 
 // A shape that moves by a vector d approaches a plane with normal n by n·d. This is at most the
 // larger of |n·axis| and |n×axis| / across, times the length of d in the metric.
-void PyramidBatch::weighBy(const MotionMetric& way) {
-  const SimdVec3<Vec> axis = wide(way.axis);
-  const auto one = wide(1.0f), across = wide(1.0f / way.across);
+void PyramidBatch::weighBy(const MotionMetric& metric) {
+  const SimdVec3<Vec> axis = broadcast(metric.axis);
+  const auto one = broadcast(1.0f), across = broadcast(1.0f / metric.across);
   for (Plane& p : planes_) {
     const SimdVec3<Vec> normal{load(p.x), load(p.y), load(p.z)};
     const auto along = dotUnfused(normal, axis), squared = dotUnfused(normal, normal);
     const auto sideways = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, squared), hn::Zero(kTag)));
     // A plane that is left out has the normal zero; nothing is outside it.
-    const auto most = hn::Max(hn::Max(hn::Abs(along), hn::Mul(sideways, across)), wide(1e-20f));
+    const auto most =
+        hn::Max(hn::Max(hn::Abs(along), hn::Mul(sideways, across)), broadcast(1e-20f));
     hn::Store(hn::Max(hn::Div(one, most), one), kTag, p.weight.data());
   }
 }
 
 LightMask PyramidBatch::mayMeetSphere(const vec3& centre, float radius, Depths& depths) const {
-  auto least = wide(std::numeric_limits<float>::max());
+  auto least = broadcast(std::numeric_limits<float>::max());
   for (const Plane& p : planes_) {
-    const auto depth = hn::Add(distanceOf(planeOf(p), wide(centre)), wide(radius));
+    const auto depth = hn::Add(distanceOf(planeOf(p), broadcast(centre)), broadcast(radius));
     least = hn::Min(hn::Mul(depth, load(p.weight)), least);
   }
   hn::StoreU(least, kTag, depths.data());
@@ -93,28 +95,29 @@ LightMask PyramidBatch::mayMeetSphere(const vec3& centre, float radius, Depths& 
 }
 
 LightMask PyramidBatch::mayMeet(const Bounds& box) const {
-  const SimdVec3<Vec> centre = wide(box.centre()), half = wide(0.5f * box.extent());
-  auto least = wide(std::numeric_limits<float>::max());
+  const SimdVec3<Vec> centre = broadcast(box.centre()), half = broadcast(0.5f * box.extent());
+  auto least = broadcast(std::numeric_limits<float>::max());
   for (const Plane& p : planes_) least = hn::Min(depthOf(planeOf(p), centre, half), least);
   return all_ & inside(least);
 }
 
 LightMask PyramidBatch::mayMeetSphere(const vec3& centre, float radius) const {
-  auto least = wide(std::numeric_limits<float>::max());
-  for (const Plane& p : planes_) least = hn::Min(distanceOf(planeOf(p), wide(centre)), least);
-  return all_ & ~outside(hn::Add(least, wide(radius)));
+  auto least = broadcast(std::numeric_limits<float>::max());
+  for (const Plane& p : planes_) least = hn::Min(distanceOf(planeOf(p), broadcast(centre)), least);
+  return all_ & ~outside(hn::Add(least, broadcast(radius)));
 }
 
 LightMask PyramidBatch::hold(const vec3& point) const {
-  const SimdVec3<Vec> p = wide(point);
-  auto least = wide(std::numeric_limits<float>::max());
+  const SimdVec3<Vec> p = broadcast(point);
+  auto least = broadcast(std::numeric_limits<float>::max());
   for (const Plane& plane : planes_) least = hn::Min(distanceOf(planeOf(plane), p), least);
   return all_ & bitsOf(hn::Ge(least, load(margin_)));
 }
 
 PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const {
-  const SimdVec3<Vec> a = wide(triangle[0]), b = wide(triangle[1]), c = wide(triangle[2]);
-  auto leastA = wide(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
+  const SimdVec3<Vec> a = broadcast(triangle[0]), b = broadcast(triangle[1]),
+                      c = broadcast(triangle[2]);
+  auto leastA = broadcast(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
   auto leastOfMost = leastA;  // minimum over planes of the largest distance of a corner
   for (const Plane& p : planes_) {
     const PlaneLanes<Vec> plane = planeOf(p);
@@ -135,23 +138,23 @@ PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const
 // it is outside a third plane through that edge. This is so if for some positive factor the sum of
 // one distance and the factor times the other is negative at each corner.
 LightMask PyramidBatch::surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const {
-  const auto margin = hn::Mul(wide(2.0f), hn::Max(load(margin_), wide(rounding)));
+  const auto margin = hn::Mul(broadcast(2.0f), hn::Max(load(margin_), broadcast(rounding)));
   std::array<std::array<Vec, 3>, kPlanes> depths;
   for (size_t p = 1; p < kPlanes; ++p) {
     PlaneLanes<Vec> plane = planeOf(planes_[p]);
     plane.offset = hn::Add(plane.offset, margin);
-    for (size_t i = 0; i < 3; ++i) depths[p][i] = distanceOf(plane, wide(triangle[i]));
+    for (size_t i = 0; i < 3; ++i) depths[p][i] = distanceOf(plane, broadcast(triangle[i]));
   }
   const auto zero = hn::Zero(kTag);
   const auto isPastEdge = [&](const std::array<Vec, 3>& a, const std::array<Vec, 3>& b) {
-    auto least = zero, most = wide(std::numeric_limits<float>::max());  // bounds of the factor
+    auto least = zero, most = broadcast(std::numeric_limits<float>::max());  // bounds of the factor
     for (size_t i = 0; i < 3; ++i) {
       const auto factor = hn::Div(hn::Neg(a[i]), b[i]);
       const auto isLower = hn::Lt(b[i], zero);
       least = hn::Max(hn::IfThenElseZero(isLower, factor), least);
       most = hn::Min(hn::IfThenElse(isLower, most, factor), most);
     }
-    return hn::Lt(hn::Mul(least, wide(1.001f)), most);
+    return hn::Lt(hn::Mul(least, broadcast(1.001f)), most);
   };
   // Edges between the patch's plane and a side, and between two sides.
   auto past = isPastEdge(depths[5], depths[2]);
@@ -185,7 +188,7 @@ LightMask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indices& whic
   const auto at = hn::Add(hn::Add(hn::ShiftLeft<2>(eights), hn::ShiftLeft<1>(eights)), lane);
   const auto take = [&](size_t i) { return hn::GatherIndex(kTag, all + i * kLights, at); };
   const SimdVec3<Vec> centre{take(0), take(1), take(2)}, half{take(3), take(4), take(5)};
-  auto least = wide(std::numeric_limits<float>::max());
+  auto least = broadcast(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
     least = hn::Min(hn::Mul(depthOf(planeOf(p), centre, half), load(p.weight)), least);
   hn::StoreU(least, kTag, depths.data());
@@ -195,17 +198,17 @@ LightMask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indices& whic
 PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, float enough) const {
   const auto depthsIn = [&](const BoxBatch& batch) {
     const SimdVec3<Vec> centre = load(batch.centre), half = load(batch.half);
-    auto least = wide(std::numeric_limits<float>::max());
+    auto least = broadcast(std::numeric_limits<float>::max());
     for (const Plane& p : planes_) {
-      const PlaneLanes<Vec> plane{wide(vec3(p.x[light], p.y[light], p.z[light])),
-                                  wide(p.offset[light])};
+      const PlaneLanes<Vec> plane{broadcast(vec3(p.x[light], p.y[light], p.z[light])),
+                                  broadcast(p.offset[light])};
       const auto depth = depthOf(plane, centre, half);
-      least = hn::Min(hn::Mul(depth, wide(p.weight[light])), least);
+      least = hn::Min(hn::Mul(depth, broadcast(p.weight[light])), least);
     }
     return least;
   };
   Found found{kNone, -std::numeric_limits<float>::max()};
-  auto outside = wide(found.depth);
+  auto outside = broadcast(found.depth);
   for (size_t a = 0; a < boxes.around().size(); ++a) {
     const auto around = depthsIn(boxes.around()[a]);
     const auto isOutside = hn::Lt(around, hn::Zero(kTag));

@@ -45,7 +45,7 @@ class PyramidBatch {
   // Only for lights for which the rectangle is neither dark nor degenerate.
   PyramidBatch(const LightPacket& lights, const PatchRegion& region);
   // Sets the metric; call this before asking for depths.
-  void weighBy(const MotionMetric& way);
+  void weighBy(const MotionMetric& metric);
 
   LightMask all() const { return all_; }
   LightMask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;

@@ -20,19 +20,20 @@ PlaneLanes<Floats8> load(const PyramidPlanes& p) {
 }  // namespace
 
 bool PyramidPlanes::mayMeet(const Bounds& box) const {
-  const Floats8 depth = depthOf(load(*this), wide(box.centre()), wide(0.5f * box.extent()));
+  const Floats8 depth =
+      depthOf(load(*this), broadcast(box.centre()), broadcast(0.5f * box.extent()));
   return hn::AllFalse(kTag, hn::Lt(depth, hn::Zero(kTag)));
 }
 
 bool PyramidPlanes::reach(const vec3& point, float depth) const {
-  return hn::AllFalse(kTag, hn::Lt(distanceOf(load(*this), wide(point)), wide(depth)));
+  return hn::AllFalse(kTag, hn::Lt(distanceOf(load(*this), broadcast(point)), broadcast(depth)));
 }
 
 bool PyramidPlanes::meet(const vec3& a, const vec3& b, const vec3& c, vec3* at) const {
   // Most triangles are completely outside one plane, or have a corner inside all planes.
   const PlaneLanes<Floats8> planes = load(*this);
   const auto outsideOf = [&](const vec3& p) {
-    return hn::Lt(distanceOf(planes, wide(p)), hn::Zero(kTag));
+    return hn::Lt(distanceOf(planes, broadcast(p)), hn::Zero(kTag));
   };
   const std::array<vec3, 3> points{a, b, c};
   const std::array outside{outsideOf(a), outsideOf(b), outsideOf(c)};

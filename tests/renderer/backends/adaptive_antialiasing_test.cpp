@@ -21,7 +21,7 @@ Settings settingsOf(int antialias, const std::string& block) {
   s.set("updates", 200);
   s.set("bounces", 1);
   s.set("antialias", antialias);
-  s.set("corner_light", false);
+  s.set("bias_compensation", false);
   s.set("block", block);
   return s;
 }

@@ -175,7 +175,7 @@ TEST_F(GlLowResolution, WhileTheCameraMovesThePictureIsCloseToTheSettledOne) {
     Settings settings = settingsOf(4);
     settings.set("importance", 1);  // importance does not choose other light samples
     settings.set("settled_map_scale", 1);
-    settings.set("corner_light", false);
+    settings.set("bias_compensation", false);
     const View view = test::viewOf(scene, 318, 211);
     View from[2] = {view, view};
     from[0].eye += vec3(0.02f, 0.01f, 0.0f);

@@ -54,7 +54,7 @@ TEST_F(LightOnly, PartsAreTheSameOnBothBackends) {
     settings.set("indirect", std::string("samples"));
     settings.set("vpls", 40);
     settings.set("antialias", 1);
-    settings.set("corner_light", false);
+    settings.set("bias_compensation", false);
     Image pictures[2][3];
     for (const int backend : {0, 1}) {
       FrameRenderer renderer(backend == 0 ? makeGlBackend() : makeCpuBackend());

@@ -55,7 +55,7 @@ class LightParts : public testing::TestWithParam<Case> {
     settings_.set("antialias", 2);
     settings_.set("samples_per_pixel", 8);
     // Corner light uses random rays that differ between the parts.
-    settings_.set("corner_light", false);
+    settings_.set("bias_compensation", false);
     settings_.set("share_memory", 0);  // jitters of a part share other pixels than those of all
     settings_.set("block", std::string("1"));
     if (GetParam().technique[0] != 0) settings_.set("technique", std::string(GetParam().technique));

@@ -55,7 +55,8 @@ TEST(SolidAngle, OfSmallTrianglesIsProjectedAreaOverSquaredDistance) {
   const vec3 a(100.0f, 0.0f, 0.0f), b(100.0f, 0.01f, 0.0f), c(100.0f, 0.0f, 0.01f);
   const float expected = 0.5f * 0.01f * 0.01f / (100.0f * 100.0f);
   EXPECT_NEAR(solidAngle(vec3(0.0f), a, b, c), expected, 1e-4f * expected);
-  const Floats8 wideAngle = solidAngle8(wide(vec3(0.0f)), wide(a), wide(b), wide(c));
+  const Floats8 wideAngle =
+      solidAngle8(broadcast(vec3(0.0f)), broadcast(a), broadcast(b), broadcast(c));
   EXPECT_NEAR(hn::GetLane(wideAngle), expected, 1e-4f * expected);
 }
 
@@ -65,7 +66,8 @@ TEST(SolidAngle, OfSpecialPlaces) {
   const auto expectBoth = [](const vec3& at, const vec3& p, const vec3& q, const vec3& r,
                              float expected) {
     EXPECT_NEAR(solidAngle(at, p, q, r), expected, 1e-6f);
-    EXPECT_NEAR(hn::GetLane(solidAngle8(wide(at), wide(p), wide(q), wide(r))), expected, 2e-6f);
+    EXPECT_NEAR(hn::GetLane(solidAngle8(broadcast(at), broadcast(p), broadcast(q), broadcast(r))),
+                expected, 2e-6f);
   };
   expectBoth(vec3(0.0f), a, b, c, 0.5f * kPi);
   EXPECT_NEAR(signedSolidAngle(vec3(0.0f), a, b, c), 0.5f * kPi, 1e-6f);

@@ -159,7 +159,7 @@ TEST(LightShares, ALargeChangeIsShownAtOnceAndSettlesToTheBitsOfAFreshRender) {
 TEST(LightShares, AddUpToThePicture) {
   Mix mix;
   EXPECT_LT(mix.differenceOfShares(), 0.06);
-  mix.settings.set("corner_light", false);
+  mix.settings.set("bias_compensation", false);
   mix.settings.set("block", std::string("1"));
   EXPECT_LT(mix.differenceOfShares(), 0.005);
   mix.settings.set("technique", std::string("visibility"));

@@ -172,7 +172,7 @@ TEST_P(MovingCamera, IsCloseToTheSettledPicture) {
   Settings settings = settingsOf(GetParam().vpls, "4");
   settings.set("importance", 1);  // importance does not choose other light samples
   settings.set("settled_map_scale", 1);
-  settings.set("corner_light", false);
+  settings.set("bias_compensation", false);
   const View view = viewsOf(scene)[0];
   View moved = view;
   moved.eye += vec3(0.02f, 0.01f, 0.0f);

@@ -122,7 +122,7 @@ TEST(MapMemory, ReplacingMapsCausesNoFlash) {
   Settings settings = settingsOf("light_maps", 210, 3);
   // Only maps change, neither the choice of light samples nor corner light of the settled picture.
   settings.set("importance", 1);
-  settings.set("corner_light", false);
+  settings.set("bias_compensation", false);
   int framesWithProxies = 0;
   for (int visit = 0; visit < 6; ++visit) {
     settings.set("updates", visit == 0 ? 400 : 10);

@@ -42,9 +42,9 @@ struct LowLamp {
     return view.rayDirection(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
   }
   Image without() {
-    settings.set("corner_light", false);
+    settings.set("bias_compensation", false);
     const Image image = picture();
-    settings.reset("corner_light");
+    settings.reset("bias_compensation");
     return image;
   }
 };

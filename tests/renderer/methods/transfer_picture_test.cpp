@@ -60,7 +60,7 @@ Settings settingsOf(bool prt, int bounces, float error = 1.0f) {
   s.set("prt_bounces", 4);
   s.set("block", std::string("1"));
   // Corner light depends on the whole picture, including objects with transfer.
-  s.set("corner_light", false);
+  s.set("bias_compensation", false);
   s.set("importance", 1);  // importance does not choose other light samples
   s.set("vpls", 1000);
   s.set("updates", 1000);

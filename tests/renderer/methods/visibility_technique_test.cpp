@@ -29,7 +29,7 @@ Settings settingsOf(const std::string& technique, int vpls) {
   s.set("vpls", vpls);
   s.set("updates", 150);
   s.set("antialias", 1);
-  s.set("corner_light", false);  // uses random rays
+  s.set("bias_compensation", false);  // uses random rays
   return s;
 }
 

@@ -106,7 +106,7 @@ Settings manyLights(const char* technique, bool prt, int prtBounces = 0) {
   s.set("share_memory", 0);  // shares are summed without light maps
   s.set("prt", prt);
   s.set("prt_bounces", prtBounces);
-  s.set("corner_light", false);
+  s.set("bias_compensation", false);
   return s;
 }
 
@@ -176,7 +176,7 @@ TEST(LightLinking, MethodsAgree) {
     Settings s = manyLights(technique, false);
     s.set("vpls", 2048);
     s.set("antialias", 4);
-    s.set("corner_light", true);
+    s.set("bias_compensation", true);
     const Image picture = test::freshPicture(makeCpuBackend(), t.scene, t.view, s);
     const Metrics m = compareImages(blockMeans(picture), blockMeans(reference));
     EXPECT_LT(m.relRmse, 0.05) << technique;

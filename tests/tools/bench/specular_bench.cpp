@@ -29,7 +29,7 @@ void frames(benchmark::State& state, const std::string& file, const MakeBackend&
   settings.set("vpls", 300);
   settings.set("updates", 300);
   settings.set("antialias", 1);
-  settings.set("corner_light", false);
+  settings.set("bias_compensation", false);
   settings.set("speculars", speculars);
   FrameRenderer renderer(make());
   const auto frame = [&](const SceneChanges& changes) {

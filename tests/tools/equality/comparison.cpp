@@ -99,7 +99,7 @@ Settings naiveSettings(int resolution, int vpls) {
   s.set("share_memory", 0);  // shares are summed without light maps, whatever the technique
   // Both would compute it with rays. It would only increase the mean and so decrease the relative
   // errors.
-  s.set("corner_light", false);
+  s.set("bias_compensation", false);
   return s;
 }
 

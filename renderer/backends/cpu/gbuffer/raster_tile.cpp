@@ -20,7 +20,7 @@ class Corners {
     const uint32_t* index = &scene.indices[scene.objects[object].firstIndex + 3 * triangle];
     for (int corner = 0; corner < 3; ++corner)
       for (int axis = 0; axis < 3; ++axis)
-        of_[axis][corner] = wide(scene.positions[index[corner]][axis]);
+        of_[axis][corner] = broadcast(scene.positions[index[corner]][axis]);
   }
   // One coordinate of the points with these barycentric weights.
   Floats at(int axis, const Floats (&w)[3]) const {
@@ -36,7 +36,7 @@ class Corners {
 
 void Raster::intersect(const Candidate& c, int index, TileHits& hits) const {
   const IntTag ints;
-  const Floats most = wide(hits.mostInverse), inverseDet = wide(c.inverseDet);
+  const Floats most = broadcast(hits.mostInverse), inverseDet = broadcast(c.inverseDet);
   for (int py = c.y0 / kPacketHeight; py <= c.y1 / kPacketHeight; ++py) {
     for (int px = c.x0 / kPacketWidth; px <= c.x1 / kPacketWidth; ++px) {
       const Pixels pixels(py * kPacketsPerRow + px);
@@ -96,7 +96,7 @@ void store(Mask lanes, const Floats (&v)[3], std::vector<float>& x, std::vector<
 }
 void store(Mask lanes, const vec3& v, std::vector<float>& x, std::vector<float>& y,
            std::vector<float>& z, size_t at) {
-  store(lanes, {wide(v.x), wide(v.y), wide(v.z)}, x, y, z, at);
+  store(lanes, {broadcast(v.x), broadcast(v.y), broadcast(v.z)}, x, y, z, at);
 }
 
 }  // namespace

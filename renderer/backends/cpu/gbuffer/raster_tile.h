@@ -19,8 +19,8 @@ struct Pixels {
   Floats x, y;
   explicit Pixels(int packet) {
     const int column = packet % kPacketsPerRow, row = packet / kPacketsPerRow;
-    x = hn::Add(hn::Load(kTag, kLaneX), wide(static_cast<float>(column * kPacketWidth)));
-    y = hn::Add(hn::Load(kTag, kLaneY), wide(static_cast<float>(row * kPacketHeight)));
+    x = hn::Add(hn::Load(kTag, kLaneX), broadcast(static_cast<float>(column * kPacketWidth)));
+    y = hn::Add(hn::Load(kTag, kLaneY), broadcast(static_cast<float>(row * kPacketHeight)));
   }
 };
 
@@ -37,12 +37,13 @@ struct Raster::Candidate {
   float inverseDet;
 
   raster::Floats edge(int i, raster::Floats x, raster::Floats y) const {
-    return hn::MulAdd(wide(alongY[i]), y, hn::MulAdd(wide(alongX[i]), x, wide(atFirst[i])));
+    return hn::MulAdd(broadcast(alongY[i]), y,
+                      hn::MulAdd(broadcast(alongX[i]), x, broadcast(atFirst[i])));
   }
   // Weights of the corners at the points where the rays meet it.
   void weights(const raster::Pixels& at, raster::Floats (&w)[3]) const {
     for (int i = 0; i < 3; ++i) w[i] = edge(i, at.x, at.y);
-    const raster::Floats scale = hn::Div(wide(1.0f), hn::Add(hn::Add(w[0], w[1]), w[2]));
+    const raster::Floats scale = hn::Div(broadcast(1.0f), hn::Add(hn::Add(w[0], w[1]), w[2]));
     for (raster::Floats& of : w) of = hn::Mul(of, scale);
   }
   uint64_t name() const { return uint64_t{object} << 32 | triangle; }

@@ -57,10 +57,10 @@ struct PointLights {
     Floats sum = hn::Zero(kTag);
     for (size_t j = 0; j < x.size(); j += kLanes) {
       const auto load = [j](const std::vector<float>& v) { return hn::LoadU(kTag, &v[j]); };
-      const Floats dx = hn::Sub(load(x), wide(x[i])), dy = hn::Sub(load(y), wide(y[i])),
-                   dz = hn::Sub(load(z), wide(z[i]));
+      const Floats dx = hn::Sub(load(x), broadcast(x[i])), dy = hn::Sub(load(y), broadcast(y[i])),
+                   dz = hn::Sub(load(z), broadcast(z[i]));
       const Floats d2 = dot({dx, dy, dz}, {dx, dy, dz});
-      const Floats weight = hn::Min(load(mostWeight), hn::Div(wide(4.0f), d2));
+      const Floats weight = hn::Min(load(mostWeight), hn::Div(broadcast(4.0f), d2));
       sum = hn::MulAdd(load(brightest), weight, sum);
     }
     return hn::GetLane(hn::SumOfLanes(kTag, sum));

@@ -32,7 +32,7 @@ HWY_INLINE void addTo(int32_t (&sum)[3][kLanes], int32_t (&fine)[3][kLanes], Flo
     const Ints whole = roundToInts(share);
     hn::Store(hn::Add(hn::Load(IntTag(), to), whole), IntTag(), to);
     const Floats left = hn::Sub(share, hn::ConvertTo(kTag, whole));
-    const Ints parts = roundToInts(hn::Mul(left, wide(FixedSums::kFinePerUnit)));
+    const Ints parts = roundToInts(hn::Mul(left, broadcast(FixedSums::kFinePerUnit)));
     hn::Store(hn::Add(hn::Load(IntTag(), rest), parts), IntTag(), rest);
   };
   add(sum[0], fine[0], hn::Mul(weight, units.x));
@@ -87,7 +87,7 @@ HWY_INLINE Floats weightOf(const SimdLight& light, const SimdConstants& c, const
       return hn::Div(hn::Mul(s, z), hn::Mul(d2, hn::Max(d2, c.clampDistance2)));
     const Floats d = hn::Sqrt(d2);
     const Floats ramp = hn::MulAdd(hn::Div(z, d), light.coneScale, light.coneOffset);
-    const Floats cone = hn::Min(hn::Max(ramp, hn::Zero(kTag)), wide(1.0f));
+    const Floats cone = hn::Min(hn::Max(ramp, hn::Zero(kTag)), broadcast(1.0f));
     return hn::Mul(hn::Mul(cone, cone), hn::Div(s, hn::Mul(d2, d)));
   }
 }
@@ -148,7 +148,7 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
       // A positive height keeps 1/w finite in lanes that the light does not reach.
       if constexpr (kLooksUp)
         occluded = hemisphereOccluded<!kSums>(
-            light, c, v, hn::IfThenElse(reached, z, wide(1.0f)),
+            light, c, v, hn::IfThenElse(reached, z, broadcast(1.0f)),
             [&]() -> const Vector3& {
               if (block.plane(i) != plane) normal = inFrameOf(light, geometric);
               plane = block.plane(i);

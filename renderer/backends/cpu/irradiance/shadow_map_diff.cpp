@@ -84,20 +84,23 @@ void PlaceSpheres::findReached(const LightRecord& light, const ShadowMapDiff& ch
   if (change.extent == ShadowMapDiff::Extent::nothing) return;
   const bool isParallel = light.kind == LightRecord::Kind::directional;
   const mat3 frame(light.tangent, light.bitangent, light.normal);
-  const SimdVec3<Floats8> position = wide(light.position);
-  const SimdVec3<Floats8> axis = wide(frame * change.axis);
-  const SimdVec3<Floats8> tangent = wide(light.tangent), bitangent = wide(light.bitangent);
-  const Floats8 one = wide(1.0f), perSide = wide(1.0f / light.side);
+  const SimdVec3<Floats8> position = broadcast(light.position);
+  const SimdVec3<Floats8> axis = broadcast(frame * change.axis);
+  const SimdVec3<Floats8> tangent = broadcast(light.tangent),
+                          bitangent = broadcast(light.bitangent);
+  const Floats8 one = broadcast(1.0f), perSide = broadcast(1.0f / light.side);
   const float cosine = std::cos(change.reach), sine = std::sin(change.reach);
   for (size_t i = 0; i < x_.size(); i += kWide) {
     const auto load = [&](const std::vector<float>& v) { return hn::LoadU(kTag, &v[i]); };
     const auto way = SimdVec3<Floats8>{load(x_), load(y_), load(z_)} - position;
-    const Floats8 radius = hn::MulAdd(load(radius_), wide(1.001f), wide(1e-4f));
+    const Floats8 radius = hn::MulAdd(load(radius_), broadcast(1.001f), broadcast(1e-4f));
     hn::Mask<FloatTag> meets;
     if (isParallel) {
-      const Floats8 dx = hn::Sub(hn::Mul(dotFused(way, tangent), perSide), wide(change.axis.x));
-      const Floats8 dy = hn::Sub(hn::Mul(dotFused(way, bitangent), perSide), wide(change.axis.y));
-      const Floats8 most = hn::MulAdd(radius, perSide, wide(change.reach));
+      const Floats8 dx =
+          hn::Sub(hn::Mul(dotFused(way, tangent), perSide), broadcast(change.axis.x));
+      const Floats8 dy =
+          hn::Sub(hn::Mul(dotFused(way, bitangent), perSide), broadcast(change.axis.y));
+      const Floats8 most = hn::MulAdd(radius, perSide, broadcast(change.reach));
       meets = hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most));
     } else {
       // From the light, the sphere has the angular radius b. a, the angle of the change, and b are
@@ -106,7 +109,7 @@ void PlaceSpheres::findReached(const LightRecord& light, const ShadowMapDiff& ch
       const Floats8 sineB2 = hn::Div(hn::Mul(radius, radius), distance2);
       const Floats8 cosineB = hn::Sqrt(hn::Max(hn::Sub(one, sineB2), hn::Zero(kTag)));
       const Floats8 least =
-          hn::Sub(hn::Mul(wide(cosine), cosineB), hn::Mul(wide(sine), hn::Sqrt(sineB2)));
+          hn::Sub(hn::Mul(broadcast(cosine), cosineB), hn::Mul(broadcast(sine), hn::Sqrt(sineB2)));
       const auto isSeen = hn::Ge(dotFused(way, axis), hn::Mul(least, hn::Sqrt(distance2)));
       // If the light is inside the sphere, or for NaN, the sphere may be anywhere.
       meets = hn::Or(isSeen, hn::Not(hn::Lt(sineB2, one)));

@@ -55,18 +55,19 @@ struct Vectors {
 struct SimdLight {
   SimdLight(const LightRecord& light, bool isNegative, const SumConstants& c)
       : map(light.map),
-        position(wide(light.position)),
-        normal(wide(light.normal)),
-        tangent(wide(light.tangent)),
-        bitangent(wide(light.bitangent)),
-        units(wide((isNegative ? -c.unitsPerIrradiance : c.unitsPerIrradiance) * light.intensity)),
-        mostWeight(wide(cpu::mostWeight(light.kind, c.clampDistance2))),
-        coneScale(wide(light.coneScale)),
-        coneOffset(wide(light.coneOffset)),
-        side(wide(light.side)),
-        inverseSide(wide(1.0f / light.side)),
-        depth(wide(2.0f * light.radius)),
-        deepest(wide(-light.radius - c.bias * light.side)) {}
+        position(broadcast(light.position)),
+        normal(broadcast(light.normal)),
+        tangent(broadcast(light.tangent)),
+        bitangent(broadcast(light.bitangent)),
+        units(broadcast((isNegative ? -c.unitsPerIrradiance : c.unitsPerIrradiance) *
+                        light.intensity)),
+        mostWeight(broadcast(cpu::mostWeight(light.kind, c.clampDistance2))),
+        coneScale(broadcast(light.coneScale)),
+        coneOffset(broadcast(light.coneOffset)),
+        side(broadcast(light.side)),
+        inverseSide(broadcast(1.0f / light.side)),
+        depth(broadcast(2.0f * light.radius)),
+        deepest(broadcast(-light.radius - c.bias * light.side)) {}
 
   const float* map;
   Vector3 position, normal, tangent, bitangent;
@@ -80,17 +81,17 @@ struct SimdLight {
 struct SimdConstants {
   // side: texels per side of the light's map.
   SimdConstants(const SumConstants& c, int side)
-      : resolution(wide(static_cast<float>(side))),
-        middle(wide(0.5f * static_cast<float>(side))),
-        half(wide(0.5f * static_cast<float>(side) * (1.0f - 0x1p-21f))),
+      : resolution(broadcast(static_cast<float>(side))),
+        middle(broadcast(0.5f * static_cast<float>(side))),
+        half(broadcast(0.5f * static_cast<float>(side) * (1.0f - 0x1p-21f))),
         lastTexel(hn::Set(hn::RebindToUnsigned<Tag>(), static_cast<uint32_t>(side * side - 1))),
-        step(wide(2.0f / static_cast<float>(side))),
-        steep(wide(shared::kSteepTexels * 2.0f / static_cast<float>(side))),
-        first(wide(1.0f / static_cast<float>(side) - 1.0f)),
-        beforePlane(wide(1.0f + c.bias)),
-        beforePoint(wide(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(side))),
-        clampDistance2(wide(c.clampDistance2)),
-        perClampDistance2(wide(1.0f / c.clampDistance2)) {}
+        step(broadcast(2.0f / static_cast<float>(side))),
+        steep(broadcast(shared::kSteepTexels * 2.0f / static_cast<float>(side))),
+        first(broadcast(1.0f / static_cast<float>(side) - 1.0f)),
+        beforePlane(broadcast(1.0f + c.bias)),
+        beforePoint(broadcast(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(side))),
+        clampDistance2(broadcast(c.clampDistance2)),
+        perClampDistance2(broadcast(1.0f / c.clampDistance2)) {}
 
   Floats resolution, middle, half;
   hn::Vec<hn::RebindToUnsigned<Tag>> lastTexel;
@@ -130,7 +131,7 @@ HWY_INLINE Mask hemisphereOccluded(const SimdLight& light, const SimdConstants& 
                                    Floats z, F&& geometric, Floats facing) {
   const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
   const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
-  const Floats inverse = hn::Div(wide(1.0f), w);
+  const Floats inverse = hn::Div(broadcast(1.0f), w);
   const Floats s = texelOf(hn::Mul(hn::Add(x, y), inverse), c);
   const Floats t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c);
   const Floats stored = fetch(light.map, s, t, c);
@@ -138,9 +139,9 @@ HWY_INLINE Mask hemisphereOccluded(const SimdLight& light, const SimdConstants& 
   // Usually nothing is occluded; then the plane is not needed.
   if (!kIsMostly && hn::AllFalse(kTag, beforePoint)) return beforePoint;
   const Floats cs = centreOf(s, c), ct = centreOf(t, c);
-  const Floats ex = hn::Mul(hn::Add(cs, ct), wide(0.5f));
-  const Floats ey = hn::Mul(hn::Sub(cs, ct), wide(0.5f));
-  const Floats ez = hn::Sub(wide(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
+  const Floats ex = hn::Mul(hn::Add(cs, ct), broadcast(0.5f));
+  const Floats ey = hn::Mul(hn::Sub(cs, ct), broadcast(0.5f));
+  const Floats ez = hn::Sub(broadcast(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
   const Vector3& n = geometric();
   const Floats plane = hn::MulAdd(n.x, ex, hn::MulAdd(n.y, ey, hn::Mul(n.z, ez)));
   // facing = −n·v > 0
@@ -153,7 +154,9 @@ HWY_INLINE Mask hemisphereOccluded(const SimdLight& light, const SimdConstants& 
 HWY_INLINE Mask directionalOccluded(const SimdLight& light, const SimdConstants& c,
                                     const Vector3& q, const Vector3& geometric, Floats facing) {
   // Clamps to the square; only needed in lanes that count.
-  const auto inSquare = [](Floats v) { return hn::Max(hn::Min(v, wide(1.0f)), wide(-1.0f)); };
+  const auto inSquare = [](Floats v) {
+    return hn::Max(hn::Min(v, broadcast(1.0f)), broadcast(-1.0f));
+  };
   const Floats s = texelOf(inSquare(hn::Mul(q.x, light.inverseSide)), c);
   const Floats t = texelOf(inSquare(hn::Mul(q.y, light.inverseSide)), c);
   const Floats stored = fetch(light.map, s, t, c);

@@ -28,8 +28,8 @@ struct ExactSum {
   template <Sign kSign>
   HWY_INLINE void add(Floats value) {
     // Floats of at least 2⁻⁷ are such multiples.
-    const Floats small = wide(0x1p-7f);
-    const Floats bounded = hn::Min(value, wide(0x1p20f));
+    const Floats small = broadcast(0x1p-7f);
+    const Floats bounded = hn::Min(value, broadcast(0x1p20f));
     const Floats rounded = hn::Sub(hn::Add(bounded, small), small);
     const Floats exact = hn::IfThenElse(hn::Lt(bounded, small), rounded, bounded);
     const hn::FixedTag<float, kLanes / 2> half;
@@ -104,11 +104,11 @@ GlossyPoints pointsAt(const GBuffer& g, const vec3& from, size_t first, uint8_t 
 template <Sign kSign, typename Sum>
 HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats weight, Floats nl,
                         Floats lv, Floats solidAngle, SumsOf3<Sum>& sum) {
-  const Floats one = wide(1.0f), half = wide(0.5f);
-  const Floats vh = hn::Sqrt(hn::Max(hn::MulAdd(half, lv, half), wide(1e-6f)));
+  const Floats one = broadcast(1.0f), half = broadcast(0.5f);
+  const Floats vh = hn::Sqrt(hn::Max(hn::MulAdd(half, lv, half), broadcast(1e-6f)));
   const Floats inverse = hn::Div(one, vh);
   const Floats a2 = hn::Min(
-      hn::MulAdd(hn::Mul(solidAngle, wide(shared::kSpread / (4.0f * kPi))), inverse, p.alpha2),
+      hn::MulAdd(hn::Mul(solidAngle, broadcast(shared::kSpread / (4.0f * kPi))), inverse, p.alpha2),
       one);
   const Floats nh = hn::Mul(hn::Mul(half, hn::Add(nl, p.nv)), inverse);
   const Floats nh2 = hn::Min(hn::Mul(nh, nh), one);
@@ -119,7 +119,7 @@ HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats wei
   };
   const Floats masking = hn::Add(side(nl, p.nv), side(p.nv, nl));
   const Floats dv =
-      hn::Div(hn::Mul(hn::Mul(a2, wide(0.5f / kPi)), weight), hn::Mul(hn::Mul(d, d), masking));
+      hn::Div(hn::Mul(hn::Mul(a2, broadcast(0.5f / kPi)), weight), hn::Mul(hn::Mul(d, d), masking));
   const Floats m = hn::Sub(one, vh), m2 = hn::Mul(m, m);
   const Floats grazing = hn::Mul(hn::Mul(m2, m2), m);
   const auto add = [&](Floats straight, Floats light, Sum& to) {
@@ -152,7 +152,7 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
     if (hn::AllFalse(kTag, lit)) return;
     lv = dot(light.normal, p.toEye);
     weight = nl;
-    solidAngle = wide(footprint);
+    solidAngle = broadcast(footprint);
     if (readsShadowMap) occluded = directionalOccluded(light, c, q, geometric, facing);
   } else {
     const Floats z = dot(v, light.normal);
@@ -163,10 +163,10 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
     if (hn::AllFalse(kTag, lit)) return;
     if (readsShadowMap)
       occluded = hemisphereOccluded(
-          light, c, v, hn::IfThenElse(lit, z, wide(1.0f)),
+          light, c, v, hn::IfThenElse(lit, z, broadcast(1.0f)),
           [&] { return inFrameOf(light, geometric); }, facing);
-    const Floats d2 = hn::Max(dot(v, v), wide(1e-12f));
-    const Floats inverse = hn::Div(wide(1.0f), hn::Sqrt(d2));
+    const Floats d2 = hn::Max(dot(v, v), broadcast(1e-12f));
+    const Floats inverse = hn::Div(broadcast(1.0f), hn::Sqrt(d2));
     nl = hn::Mul(s, inverse);
     lv = hn::Neg(hn::Mul(dot(v, p.toEye), inverse));
     // Cosine at the light. Clamped in lanes behind the light, so that no lobe becomes infinite.
@@ -174,10 +174,10 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
     if constexpr (kKind == LightRecord::Kind::cosine) {
       const Floats perArea = hn::Mul(away, hn::Min(hn::Mul(inverse, inverse), c.perClampDistance2));
       weight = hn::Mul(nl, perArea);
-      solidAngle = hn::Mul(wide(footprint), perArea);
+      solidAngle = hn::Mul(broadcast(footprint), perArea);
     } else {
       const Floats ramp = hn::MulAdd(away, light.coneScale, light.coneOffset);
-      const Floats cone = hn::Min(hn::Max(ramp, zero), wide(1.0f));
+      const Floats cone = hn::Min(hn::Max(ramp, zero), broadcast(1.0f));
       weight = hn::Mul(hn::Mul(cone, cone), hn::Div(nl, d2));
     }
     weight = hn::Min(weight, light.mostWeight);
@@ -185,14 +185,14 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
   lit = hn::AndNot(occluded, lit);
   if (hn::AllFalse(kTag, lit)) return;
   // Few lanes.
-  const Mask isLarge = hn::Gt(solidAngle, wide(shared::kMostSolidAngle));
+  const Mask isLarge = hn::Gt(solidAngle, broadcast(shared::kMostSolidAngle));
   if (!hn::AllFalse(kTag, isLarge)) {
-    const Floats share = hn::Div(wide(shared::kMostSolidAngle), solidAngle);
+    const Floats share = hn::Div(broadcast(shared::kMostSolidAngle), solidAngle);
     weight = hn::IfThenElse(isLarge, hn::Mul(weight, share), weight);
   }
   // Other lanes use a light above the surface with weight 0, to avoid a division by zero.
   addLobe<kSign>(p, light.units, hn::IfThenElseZero(lit, weight),
-                 hn::IfThenElse(lit, nl, wide(1.0f)), lv, solidAngle, sum);
+                 hn::IfThenElse(lit, nl, broadcast(1.0f)), lv, solidAngle, sum);
 }
 
 }  // namespace

@@ -25,11 +25,11 @@ bool lieIn(const ObjectPatches& patches, int leaf, const GBuffer& g, size_t firs
   const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
   const FloatTag tag;
   const auto load = [&](const std::vector<float>& v) { return hn::LoadU(tag, &v[first]); };
-  const auto way = SimdVec3<Floats8>{load(g.px), load(g.py), load(g.pz)} - wide(chart.origin);
-  const Floats8 x = dotUnfused(way, wide(chart.tangent));
-  const Floats8 y = dotUnfused(way, wide(chart.bitangent));
+  const auto way = SimdVec3<Floats8>{load(g.px), load(g.py), load(g.pz)} - broadcast(chart.origin);
+  const Floats8 x = dotUnfused(way, broadcast(chart.tangent));
+  const Floats8 y = dotUnfused(way, broadcast(chart.bitangent));
   const auto within = [](Floats8 v, float low, float high) {
-    return hn::And(hn::Ge(v, wide(low)), hn::Lt(v, wide(high)));
+    return hn::And(hn::Ge(v, broadcast(low)), hn::Lt(v, broadcast(high)));
   };
   return hn::AllTrue(
       tag, hn::And(within(x, patch.min.x, patch.max.x), within(y, patch.min.y, patch.max.y)));

@@ -104,11 +104,11 @@ class CpuManyLights final : public ManyLightsKernels {
     const SeenPoints* before = isNext ? backend_.seenBefore() : nullptr;
     if (showsStill()) summedView_ = backend_.views();
     shared_ = {};
-    if (showsStill()) sharing_.forget();
+    if (showsStill()) antialiasing_.forget();
     if (block != 1 && isStillOf(in, block)) {
-      if (!sharing_.isTaken()) sharing_.take(backend_.still().gbuffer, still_.diffuse());
+      if (!antialiasing_.isTaken()) antialiasing_.take(backend_.still().gbuffer, still_.diffuse());
       p.block = block;
-      shared_ = sharing_.findOwn(backend_.still().gbuffer, in.gbuffer);
+      shared_ = antialiasing_.findOwn(backend_.still().gbuffer, in.gbuffer);
       counts_.pixelsInterpolated += still_.pixelsInterpolated();
       add(p.sumAt(in, shared_));
     } else {
@@ -261,7 +261,7 @@ class CpuManyLights final : public ManyLightsKernels {
   std::unique_ptr<ShareSums> shares_;
   bool isLong_ = false;                 // of the last sum
   std::optional<uint64_t> summedView_;  // CpuBackend::views() of the last sum of the present scene
-  AdaptiveAntialiasing sharing_;        // of still_
+  AdaptiveAntialiasing antialiasing_;   // of still_
   std::span<const uint32_t> shared_;    // packets shown that need their own light; empty: all
   std::vector<uint32_t> leftOutBy_;     // by object, with light linking; else empty
 };

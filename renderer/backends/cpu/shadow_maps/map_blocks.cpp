@@ -39,19 +39,19 @@ SphereInMap::SphereInMap(const LightSpace& light, const TexelDirections& directi
 
 uint32_t SphereInMap::blocks(size_t first) const {
   const TexelDirections& d = directions_;
-  const Floats8 x = wideAt(d.midX, first), y = wideAt(d.midY, first);
+  const Floats8 x = loadAt(d.midX, first), y = loadAt(d.midY, first);
   if (isParallel_) {
-    const Floats8 dx = hn::Sub(x, wide(axis_.x)), dy = hn::Sub(y, wide(axis_.y)),
-                  most = hn::Add(wideAt(d.cosine, first), wide(reach_));
+    const Floats8 dx = hn::Sub(x, broadcast(axis_.x)), dy = hn::Sub(y, broadcast(axis_.y)),
+                  most = hn::Add(loadAt(d.cosine, first), broadcast(reach_));
     return bitsOf(hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most)));
   }
-  const Floats8 cosines =
-      hn::MulAdd(x, wide(axis_.x),
-                 hn::MulAdd(y, wide(axis_.y), hn::Mul(wideAt(d.midZ, first), wide(axis_.z))));
+  const Floats8 cosines = hn::MulAdd(
+      x, broadcast(axis_.x),
+      hn::MulAdd(y, broadcast(axis_.y), hn::Mul(loadAt(d.midZ, first), broadcast(axis_.z))));
   // Both angles (of the sphere and of the block) are below 90°, so cos(a + b) decreases from 1 to
   // −1.
-  const Floats8 least = hn::Sub(hn::Mul(wideAt(d.cosine, first), wide(cosine_)),
-                                hn::Mul(wideAt(d.sine, first), wide(reach_)));
+  const Floats8 least = hn::Sub(hn::Mul(loadAt(d.cosine, first), broadcast(cosine_)),
+                                hn::Mul(loadAt(d.sine, first), broadcast(reach_)));
   return bitsOf(hn::Ge(cosines, least));
 }
 

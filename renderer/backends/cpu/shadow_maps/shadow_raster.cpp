@@ -58,7 +58,7 @@ void storeBlock(Floats v, float* map, size_t resolution) {
 struct Function {
   Floats x, y, z;
   Function(const float (&f)[4][kTriangles], size_t lane)
-      : x(wide(f[0][lane])), y(wide(f[1][lane])), z(wide(f[2][lane])) {}
+      : x(broadcast(f[0][lane])), y(broadcast(f[1][lane])), z(broadcast(f[2][lane])) {}
   Floats at(Floats dx, Floats dy, Floats dz) const {
     return hn::MulAdd(x, dx, hn::MulAdd(y, dy, hn::Mul(z, dz)));
   }
@@ -86,9 +86,9 @@ struct AtCorners {
   Ends a, b, c, stored;
   AtCorners(const Triangle& t, const TexelDirections& d, int row, int first) {
     const size_t at = static_cast<size_t>(row) * kRow + static_cast<size_t>(first);
-    const Floats x0 = wideAt(d.cornerX, at), x1 = wideAt(d.cornerX, at + 1);
-    const Floats y0 = wideAt(d.cornerY, at), y1 = wideAt(d.cornerY, at + 1);
-    const Floats z0 = wideAt(d.cornerZ, at), z1 = wideAt(d.cornerZ, at + 1);
+    const Floats x0 = loadAt(d.cornerX, at), x1 = loadAt(d.cornerX, at + 1);
+    const Floats y0 = loadAt(d.cornerY, at), y1 = loadAt(d.cornerY, at + 1);
+    const Floats z0 = loadAt(d.cornerZ, at), z1 = loadAt(d.cornerZ, at + 1);
     const auto ends = [&](const Function& f) {
       const Floats left = f.at(x0, y0, z0), right = f.at(x1, y1, z1);
       return Ends{hn::Min(left, right), hn::Max(left, right)};
@@ -113,7 +113,7 @@ float drawTile(const Triangle& t, const TexelDirections& d, Floats most, int x, 
     float* texels = map + static_cast<size_t>(y) * stride + static_cast<size_t>(x);
     for (const float* const last = texels + width; texels < last;
          texels += kBlockWidth, at += kTriangles) {
-      const Floats dx = wideAt(d.x, at), dy = wideAt(d.y, at), dz = wideAt(d.z, at);
+      const Floats dx = loadAt(d.x, at), dy = loadAt(d.y, at), dz = loadAt(d.z, at);
       const Floats stored = t.stored.at(dx, dy, dz);
       auto isMet = hn::Le(stored, most);
       if (!isWhole)
@@ -290,13 +290,13 @@ void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const 
   const TexelDirections& d = band.grid.directions(light.isParallel);
   const int tile = band.grid.tile, tiles = band.grid.tiles;
   const Triangle t(batch, lane);
-  const auto slack = [&](size_t function) { return wide(batch.functions[function][3][lane]); };
+  const auto slack = [&](size_t function) { return broadcast(batch.functions[function][3][lane]); };
   const Floats slackA = slack(0), slackB = slack(1), slackC = slack(2);
   // With an odd number of tiles, the middle tile contains the tip of the octahedron: values inside
   // it can exceed those at its corners.
   const Floats slackStored = tiles % 2 == 0 ? slack(ShadowTriangles::Batch::kPlane)
-                                            : wide(std::numeric_limits<float>::infinity());
-  const Floats zero = hn::Zero(kTag), most = wide(light.most);
+                                            : broadcast(std::numeric_limits<float>::infinity());
+  const Floats zero = hn::Zero(kTag), most = broadcast(light.most);
   for (int first = 0; first < tiles; first += static_cast<int>(kTriangles)) {
     const uint32_t lanes = (1u << std::min(tiles - first, static_cast<int>(kTriangles))) - 1;
     AtCorners above(t, d, band.firstTile, first);

@@ -27,14 +27,15 @@ Vector3 operator*(const Vector3& a, Floats s) {
 
 // For directional light z is the stored value: 1 one radius above the origin, 0 one radius below.
 Vector3 toLight(const LightSpace& light, const Vector3& p) {
-  const Vector3 way = p - Vector3{wide(light.origin.x), wide(light.origin.y), wide(light.origin.z)};
+  const Vector3 way =
+      p - Vector3{broadcast(light.origin.x), broadcast(light.origin.y), broadcast(light.origin.z)};
   const auto along = [&](int axis, float scale) {
     const vec3 a = light.axes[axis] * scale;
-    return dotFused(way, {wide(a.x), wide(a.y), wide(a.z)});
+    return dotFused(way, {broadcast(a.x), broadcast(a.y), broadcast(a.z)});
   };
   const Floats z = along(2, light.up);
   return {along(0, light.across), along(1, light.across),
-          light.isParallel ? hn::Add(z, wide(0.5f)) : z};
+          light.isParallel ? hn::Add(z, broadcast(0.5f)) : z};
 }
 
 void store(const Vector3& f, float (&out)[4][ShadowTriangles::kLanes]) {
@@ -42,7 +43,7 @@ void store(const Vector3& f, float (&out)[4][ShadowTriangles::kLanes]) {
   hn::Store(f.x, kTag, out[0]);
   hn::Store(f.y, kTag, out[1]);
   hn::Store(f.z, kTag, out[2]);
-  hn::Store(hn::Mul(size, wide(kEdgeRounding)), kTag, out[3]);
+  hn::Store(hn::Mul(size, broadcast(kEdgeRounding)), kTag, out[3]);
 }
 
 // Prepares triangles from their corners in light space.
@@ -52,10 +53,10 @@ void see(const LightSpace& light, const std::array<Vector3, 3>& corner,
   const Vector3 normal = cross(b - a, c - a);
   std::array<Vector3, 3> flat = corner;  // in the space of the rays; z is 1 for directional light
   if (light.isParallel)
-    for (Vector3& p : flat) p.z = wide(1.0f);
+    for (Vector3& p : flat) p.z = broadcast(1.0f);
   const Floats det = light.isParallel ? normal.z : dotFused(a, normal);
-  const Floats inverse = hn::Div(wide(1.0f), det);
-  auto isSeen = hn::And(hn::Lt(hn::Abs(inverse), wide(std::numeric_limits<float>::max())),
+  const Floats inverse = hn::Div(broadcast(1.0f), det);
+  auto isSeen = hn::And(hn::Lt(hn::Abs(inverse), broadcast(std::numeric_limits<float>::max())),
                         hn::Ne(det, hn::Zero(kTag)));
   if (!light.isParallel)
     isSeen = hn::And(isSeen, hn::Gt(hn::Max(a.z, hn::Max(b.z, c.z)), hn::Zero(kTag)));
@@ -67,7 +68,7 @@ void see(const LightSpace& light, const std::array<Vector3, 3>& corner,
                                    hn::MulAdd(slope.x, a.x, hn::MulAdd(slope.y, a.y, a.z))}
                          : slope,
         out.functions[ShadowTriangles::Batch::kPlane]);
-  const Floats side = hn::CopySign(wide(1.0f), det);
+  const Floats side = hn::CopySign(broadcast(1.0f), det);
   for (size_t i = 0; i < 3; ++i)
     store(cross(flat[(i + 1) % 3], flat[(i + 2) % 3]) * side, out.functions[i]);
 }

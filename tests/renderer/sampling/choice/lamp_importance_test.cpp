@@ -181,7 +181,7 @@ TEST(LampImportance, EditsLeaveThePictureOfAFreshStart) {
   settings.set("bounces", 1);
   settings.set("vpls", 100);
   settings.set("antialias", 1);
-  settings.set("corner_light", false);
+  settings.set("bias_compensation", false);
   const View view = Rooms::view();
   FrameRenderer renderer(makeCpuBackend());
   test::settledPicture(renderer, rooms.scene, SceneChanges::all(), view, settings);

@@ -236,7 +236,7 @@ TEST_F(MoversOfARoom, ResultsStayValidWithinTheirSlack) {
       node.local.rotation = glm::angleAxis(angle, vec3(0.0f, 1.0f, 0.0f)) * node.local.rotation;
       update(scene_, level_, compare(old, level_));
       const Occluders after = placeOccluders();
-      const float step = 1.01f * farthestStep(placeBefore, placeOf(after), path.way());
+      const float step = 1.01f * farthestStep(placeBefore, placeOf(after), path.metric());
       size_t differ = 0, i = 0;
       forEachAnswer(MoverShadows(after, {&mover, 1}, lights_, MoverPath()),
                     [&](const PatchRegion&, size_t, bool isMet, float) {
@@ -348,8 +348,8 @@ TEST(MoverPathTest, MarksAreValidOnlyWithinTheirSlack) {
 // The metric follows a straight path and is reset when the path is not straight.
 TEST_F(MoversOfARoom, MetricFollowsTwoStraightSteps) {
   MoverPath path = straightPath(vec3(0.0f, 0.0f, -1.0f));
-  EXPECT_NEAR(std::abs(path.way().axis.z), 1.0f, 1e-5f);
-  EXPECT_GT(path.way().across, 1.0f);
+  EXPECT_NEAR(std::abs(path.metric().axis.z), 1.0f, 1e-5f);
+  EXPECT_GT(path.metric().across, 1.0f);
   const MoverPath::Mark mark = path.markAfter(0.5f);
   EXPECT_GE(mark, path.now());
   const auto at = [](const vec3& place) {
@@ -360,8 +360,8 @@ TEST_F(MoversOfARoom, MetricFollowsTwoStraightSteps) {
   EXPECT_EQ(path.advance({&here, 1}, {&ahead, 1}), 0);
   EXPECT_GE(mark, path.now());
   EXPECT_EQ(path.advance({&ahead, 1}, {&aside, 1}), 255) << "all marks are invalid";
-  EXPECT_EQ(path.way().axis, vec3(0.0f));
-  EXPECT_EQ(path.way().lengthOf(vec3(0.03f, 0.0f, 0.04f)), 0.05f);
+  EXPECT_EQ(path.metric().axis, vec3(0.0f));
+  EXPECT_EQ(path.metric().lengthOf(vec3(0.03f, 0.0f, 0.04f)), 0.05f);
 }
 
 }  // namespace

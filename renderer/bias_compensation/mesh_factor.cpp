@@ -1,4 +1,4 @@
-#include "renderer/corner_light/mesh_factor.h"
+#include "renderer/bias_compensation/mesh_factor.h"
 
 #include <algorithm>
 #include <array>

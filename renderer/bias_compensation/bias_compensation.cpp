@@ -1,4 +1,4 @@
-#include "renderer/corner_light/bias_compensation.h"
+#include "renderer/bias_compensation/bias_compensation.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
-#include "renderer/corner_light/seen_pixels.h"
+#include "renderer/bias_compensation/seen_pixels.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/vpl.h"
 #include "shaders/shared/brdf.h"

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "renderer/corner_light/bias_compensation.h"
+#include "renderer/bias_compensation/bias_compensation.h"
 #include "renderer/image/image.h"
 
 namespace lamplighter {

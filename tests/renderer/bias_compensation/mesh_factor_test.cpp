@@ -1,5 +1,5 @@
 // The form factor of a mesh by its outlines.
-#include "renderer/corner_light/mesh_factor.h"
+#include "renderer/bias_compensation/mesh_factor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "renderer/corner_light/bias_compensation_filter.h"
+#include "renderer/bias_compensation/bias_compensation_filter.h"
 
 #include <algorithm>
 #include <cmath>

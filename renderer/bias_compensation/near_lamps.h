@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/corner_light/bias_compensation.h"
-#include "renderer/corner_light/mesh_factor.h"
+#include "renderer/bias_compensation/bias_compensation.h"
+#include "renderer/bias_compensation/mesh_factor.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/light_controls.h"
 #include "renderer/sampling/light_sample_table.h"

@@ -1,4 +1,4 @@
-#include "renderer/corner_light/near_lamps.h"
+#include "renderer/bias_compensation/near_lamps.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
-#include "renderer/corner_light/seen_pixels.h"
+#include "renderer/bias_compensation/seen_pixels.h"
 #include "renderer/sampling/path_tracing.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
