@@ -153,7 +153,7 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "spots. No cost in time.",
        {0.0, 10.0},
        quality},
-      {&P::biasCompensation, "bias_compensation", "Light in corners",
+      {&P::biasCompensation, "bias_compensation", "Bias compensation",
        "At rest, adds the bounced light that clamp_distance removes near surfaces. Costs rays at "
        "each pixel.",
        quality},
