@@ -21,7 +21,7 @@ std::string quoted(const std::string& text) {
 std::string callText(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) {
-    const bool isPlain = word.find_first_of(" \"\\") == word.npos;
+    const bool isPlain = !word.empty() && word.find_first_of(" \"\\") == word.npos;
     text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
   }
   return text;

@@ -1,4 +1,6 @@
 // Actions of the user's settings and of panels that do not belong to a level.
+#include <spdlog/fmt/fmt.h>
+
 #include "editor/actions/arguments.h"
 #include "editor/session/apply.h"
 #include "editor/session/register_actions.h"
@@ -57,7 +59,7 @@ void addPreferenceActions(ActionRegistry& r) {
          nullptr, true});
   r.add({"settings.show", "Settings\u2026", "", "Shows the user's settings.", "Ctrl+Comma",
          [](Session& s, const Arguments&) { s.home().showsSettings = true; }, nullptr, true});
-  r.add({"view.ui_scale", "UI scale", "0.75|1|1.25|1.5|2|3",
+  r.add({"view.ui_scale", "UI scale", fmt::format("{}", fmt::join(offeredValues("ui_scale"), "|")),
          "Sets the size of the user interface, relative to the scale of the screen, from 0.5 to 4.",
          "", [](Session& s, const Arguments& a) { s.home().preferences.setText("ui_scale", a[0]); },
          nullptr, true});

@@ -80,7 +80,8 @@ const std::vector<BakeMethodInfo>& bakeMethods() {
 
 BakeLightOptions bakeLightOptions(const std::string& method, const Settings& settings) {
   const auto it = std::ranges::find(bakeMethods(), method, &BakeMethodInfo::name);
-  if (it == bakeMethods().end()) throw std::logic_error(method + " cannot be baked with");
+  if (it == bakeMethods().end())
+    throw std::logic_error("there is no method of baking named " + method);
   return it->options(settings);
 }
 

@@ -16,7 +16,6 @@ struct BakeMethodInfo {
   BakeLightOptions (*options)(Settings settings);
 };
 
-// The first is the default.
 const std::vector<BakeMethodInfo>& bakeMethods();
 // `method`: a name of bakeMethods(). Parameters that are not set have defaults for baking where
 // these differ from those of the viewport.

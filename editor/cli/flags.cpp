@@ -289,15 +289,13 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
                  "Output folder for the pages and the copy; created if it does not exist")
       ->type_name("FOLDER")
       ->required();
-  std::string ways;
+  std::string help;
   std::vector<std::string> names;
   for (const BakeMethodInfo& method : bakeMethods()) {
-    ways += (ways.empty() ? "" : "; ") + method.name + ": " + method.summary;
+    help += (help.empty() ? "" : "; ") + method.name + ": " + method.summary;
     names.push_back(method.name);
   }
-  sub.add_option("--method", o->method, ways)
-      ->check(CLI::IsMember(names))
-      ->capture_default_str();
+  sub.add_option("--method", o->method, help)->check(CLI::IsMember(names))->capture_default_str();
   sub.add_option("--density", o->atlas.texelsPerMetre, "Texels per metre")
       ->type_name("X")
       ->check(within(0.01, 10000.0))

@@ -1,6 +1,7 @@
 #include "editor/preferences/preferences.h"
 
 #include <algorithm>
+#include <map>
 
 #include "editor/keys/key_presets.h"
 #include "editor/presets/presets.h"
@@ -46,10 +47,7 @@ std::vector<PreferenceSection> declared() {
          "Thumbnails",
          "px",
          "Size of the previews in the asset browser.",
-         {48, 192}}},
-       true,
-       // A slider would move away from the pointer with each change.
-       {{"ui_scale", {"0.75", "1", "1.25", "1.5", "2", "3"}}}},
+         {48, 192}}}},
       {"Input",
        {&S::keys, "keys", "Keys",
         "Keys for moving, rotating and scaling; keys.json in the same folder binds single actions.",
@@ -125,6 +123,15 @@ std::filesystem::path normal(const std::filesystem::path& path) {
 const std::vector<PreferenceSection>& preferenceSections() {
   static const std::vector<PreferenceSection> kSections = declared();
   return kSections;
+}
+
+// A slider of the scale would move away from the pointer with each change.
+const std::vector<std::string>& offeredValues(const std::string& name) {
+  static const std::map<std::string, std::vector<std::string>> kOffered{
+      {"ui_scale", {"0.75", "1", "1.25", "1.5", "2", "3"}}};
+  static const std::vector<std::string> kSlider;
+  const auto it = kOffered.find(name);
+  return it == kOffered.end() ? kSlider : it->second;
 }
 
 const ParameterSpec* findPreference(const std::string& name) {

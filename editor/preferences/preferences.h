@@ -5,7 +5,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -30,10 +29,11 @@ struct PreferenceSection {
   std::string label;
   ParameterTable<UserSettings> table;
   bool isOpen = true;  // at first
-  // Values that the panel offers for a setting in place of a slider, by name.
-  std::map<std::string, std::vector<std::string>> offered = {};
 };
 const std::vector<PreferenceSection>& preferenceSections();
+// The values of a numeric setting that menus and the panel offer in place of a slider; empty: there
+// is a slider.
+const std::vector<std::string>& offeredValues(const std::string& name);
 // nullptr if the name is unknown.
 const ParameterSpec* findPreference(const std::string& name);
 // Throws InputError.

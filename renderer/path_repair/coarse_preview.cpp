@@ -11,8 +11,10 @@ namespace {
 // A picture has about this number of blocks, which are at most kMostSide pixels wide.
 constexpr float kBlocks = 64000.0f;
 constexpr int kMostSide = 4;
-// Blocks of which less than this counts show other surfaces than a pixel.
-constexpr float kLeastWeight = 1e-3f;
+// Blocks in the middle of which a pixel lies do not count alone: they may show a lamp.
+constexpr float kLeastShare = 0.01f;
+// If the weights of the blocks around a pixel sum to less than this, none shows its surface.
+constexpr float kLeastWeight = 1e-4f;
 // A pixel that no block around it shows is scaled like these, at most by this factor.
 constexpr float kMostScale = 4.0f;
 
@@ -34,16 +36,40 @@ void CoarsePreview::endPaths() {
   sums_.endPath();
 }
 
+// All pixels in turn, far from each other: 7 has no common divisor with 4, 9 and 16.
+glm::ivec2 CoarsePreview::pixelOf(int path) const {
+  const int pixel = (7 * path + side_ / 2 * (side_ + 1)) % (side_ * side_);
+  return {pixel % side_, pixel / side_};
+}
+
 void CoarsePreview::beginFilter(const std::shared_ptr<RadianceImage>& live) {
   live_ = live;
-  means_ = blockMeans(live->pixels(), blocks_, side_);
+  means_ = meansOf(live->pixels());
   filter_ = std::make_unique<ResidualFilter>(blocks_, means_, sums_);
+}
+
+// Of the pixels that paths went through: otherwise texture would count as an error of the picture.
+// Of blocks at the sky or a lamp nothing is known: 0, like their paths.
+Image CoarsePreview::meansOf(const Image& picture) const {
+  Image means(blocks_.width, blocks_.height);
+  tbb::parallel_for(0, blocks_.height, [&](int y) {
+    for (int x = 0; x < blocks_.width; ++x) {
+      if (blocks_.isAtLight(x, y)) continue;
+      vec3 sum(0.0f);
+      for (int path = 0; path < traced(); ++path) {
+        const glm::ivec2 at = pixelOf(path);
+        sum += picture.at(std::min(side_ * x + at.x, picture.width - 1),
+                          std::min(side_ * y + at.y, picture.height - 1));
+      }
+      means.at(x, y) = sum / static_cast<float>(traced());
+    }
+  });
+  return means;
 }
 
 int CoarsePreview::filter(int mostRows) {
   const int rows = filter_->step(mostRows);
   if (!filter_->isDone()) return rows;
-  error_ = filter_->error();
   const Image residual = filter_->takeResidual();
   filter_.reset();
   show(residual);
@@ -76,13 +102,14 @@ vec3 CoarsePreview::residualAt(const Image& residual, int x, int y) const {
               v = std::clamp(static_cast<int>(top) + dy, 0, blocks_.height - 1);
     if (blocks_.isAtLight(u, v)) continue;
     const auto b = static_cast<size_t>(v * blocks_.width + u);
-    const float weight = std::abs(1.0f - static_cast<float>(dx) - (across - left)) *
-                         std::abs(1.0f - static_cast<float>(dy) - (down - top));
+    const float weight = kLeastShare + std::abs(1.0f - static_cast<float>(dx) - (across - left)) *
+                                           std::abs(1.0f - static_cast<float>(dy) - (down - top));
     all += weight * residual.pixels[b];
     light += weight * means_.pixels[b];
-    const float cosine = std::max(glm::dot(normal, blocks_.normal[b]), 0.0f);
+    float turn = std::max(glm::dot(normal, blocks_.normal[b]), 0.0f);
+    for (int power = 1; power < 8; power *= 2) turn *= turn;
     const float off = glm::dot(normal, blocks_.position[b] - position) * tolerance;
-    const float same = weight * std::pow(cosine, 8.0f) * std::max(1.0f - off * off, 0.0f);
+    const float same = weight * turn * std::max(1.0f - off * off, 0.0f);
     alike += same * residual.pixels[b] / blocks_.albedo[b];
     weights += same;
   }

@@ -25,11 +25,15 @@ class CoarsePreview {
 
   int side() const { return side_; }
   const RepairGuides& blocks() const { return blocks_; }
-  // A path of a block, in each half one after the other. Nothing for blocks at the sky or a lamp.
+  // The number of pixels of each block that have a path in each half, and the next one: its place
+  // in its block. The first is in the middle.
+  int traced() const { return sums_.paths / 2; }
+  glm::ivec2 nextPixel() const { return pixelOf(traced()); }
+  // Adds a path to a half of a block. Not for blocks at the sky or a lamp.
   void add(bool isFirst, size_t block, const vec3& radiance) {
     sums_.add(isFirst, block, radiance);
   }
-  // After a path of each half of all blocks.
+  // After each half of all blocks got a path.
   void endPaths();
 
   void beginFilter(const std::shared_ptr<RadianceImage>& live);
@@ -39,10 +43,10 @@ class CoarsePreview {
   int filter(int mostRows);
   // The repaired picture; null until there is one.
   const std::shared_ptr<RadianceImage>& image() const { return image_; }
-  // ResidualFilter::error() of image().
-  float error() const { return error_; }
 
  private:
+  glm::ivec2 pixelOf(int path) const;
+  Image meansOf(const Image& picture) const;
   void show(const Image& residual);
   vec3 residualAt(const Image& residual, int x, int y) const;
 
@@ -51,9 +55,8 @@ class CoarsePreview {
   RepairGuides blocks_;
   PathSums sums_;
   std::shared_ptr<RadianceImage> live_;  // of the filter
-  Image means_;                          // of live_, by block
+  Image means_;                          // of the traced pixels of live_, by block
   std::unique_ptr<ResidualFilter> filter_;
-  float error_ = 0.0f;
   std::shared_ptr<RadianceImage> image_;
 };
 

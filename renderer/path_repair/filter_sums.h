@@ -8,17 +8,17 @@
 
 namespace lamplighter {
 
-// Residuals, the picture and the albedo, divided by the albedo as for white surfaces. The noise of
-// paths grows with the albedo, so without the division bright surfaces would have more weight than
-// dark ones beside them.
+// Sums of residuals, of the picture and of albedo. Quotients by the last are means for a white
+// surface, in which pixels count by albedo. Least squares would count by its square, but the noise
+// of paths grows with albedo, too.
 struct ResidualSums {
   // Neighbours in a coarse band share paths: their mean has a larger variance than that of
   // independent ones, by this factor.
   static constexpr float kCorrelation = 1.78f;
 
   Halves tame;
-  vec3 excess{
-      0.0f};  // of both halves: the part above the bound, which is added only to the widest mean
+  // Of both halves: the part above the bound, which is added only to the widest mean.
+  vec3 excess{0.0f};
   vec3 picture{0.0f};
   vec3 albedo{0.0f};
   float variance = 1.0f;  // variance of the mean, if the variance of one pixel is 1

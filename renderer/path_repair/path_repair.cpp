@@ -42,8 +42,8 @@ bool isShown(int paths, int last, int all, bool isPreview) {
 }
 
 // Whether a preview is shown after this number of the pixels of each block.
-bool isShownCoarsely(int cells, int all) {
-  return 2 * cells <= all && (cells == 1 || cells == 4 || cells == 8);
+bool isShownCoarsely(int traced, int all) {
+  return 2 * traced <= all && (traced == 1 || traced == 4 || traced == 8);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ void PathRepair::begin(const FrameInputs& in, const Options& options) {
   whole_ = PathSums(in.view.width, in.view.height);
   for (auto& half : hasLightAlone_) half.assign(pixels, 0);
   const int side = CoarsePreview::sideOf(in.view.width, in.view.height);
-  if (side > 1) coarse_ = std::make_unique<CoarsePreview>(guides_, side);
+  if (side > 1 && options.isPreview) coarse_ = std::make_unique<CoarsePreview>(guides_, side);
 }
 
 int PathRepair::goOn(const FrameInputs& in, const Options& options,
@@ -79,12 +79,15 @@ int PathRepair::goOn(const FrameInputs& in, const Options& options,
   if (live != live_ || options.isPreview != isPreview_ || endsAtSurfaces != endsAtSurfaces_)
     takePicture(live, options.isPreview, endsAtSurfaces);
   int done = 0;
-  while (done < most && !isDone(options))
-    done += filter_                             ? filter(most - done)
-            : coarse_ && coarse_->isFiltering() ? filterBlocks(most - done)
-            : coarse_                           ? traceCells(in, options, most - done)
-                                                : tracePaths(in, options, surfaces, most - done);
+  while (done < most && !isDone(options)) done += advance(in, options, surfaces, most - done);
   return done;
+}
+
+int PathRepair::advance(const FrameInputs& in, const Options& options,
+                        const MirroredLight* surfaces, int most) {
+  if (filter_) return filter(most);
+  if (!coarse_) return tracePaths(in, options, surfaces, most);
+  return coarse_->isFiltering() ? filterBlocks(most) : traceBlocks(in, options, most);
 }
 
 // A preview that is being computed is finished first. A settled picture is repaired at once, by the
@@ -99,7 +102,10 @@ void PathRepair::takePicture(const std::shared_ptr<RadianceImage>& live, bool is
   endsAtSurfaces_ = endsAtSurfaces;
   ended_ = missing_ = {};
   dropFilter();
-  if (coarse_ && !isPreview) coarse_->dropFilter();
+  if (coarse_ && !isPreview) {
+    coarse_->dropFilter();
+    repaired_ = nullptr;
+  }
   if (hasNoPixels()) return;
   if (endsAtSurfaces) ended_ = missing_ = PathSums(view_.width, view_.height);
   if (isPreview && whole_.paths < kWholePaths) return;
@@ -114,7 +120,7 @@ bool PathRepair::hasSeenLight(int x, int y, size_t half, uint32_t sample) const 
   return guides_.isAtLight(x, y) && (sample == 0 || hasLightAlone_[half][i] == 0);
 }
 
-// What a path begins with: what it is told, and what rays found before it.
+// Options of a path, and the light that rays found in its pixel before.
 struct PathRepair::Start {
   PathTracerOptions path;
   SeenLight seen{.surfaces = 1.0f};
@@ -147,23 +153,28 @@ vec3 PathRepair::wholePath(const Tracing& in, int x, int y, size_t half, uint32_
 
 // The first path of each half, for one pixel of each block after the other. Returns the work in
 // rows of paths.
-int PathRepair::traceCells(const FrameInputs& in, const Options& options, int most) {
+int PathRepair::traceBlocks(const FrameInputs& in, const Options& options, int most) {
   const Tracing tracing{in.scene, in.services.rays()};
   const int side = coarse_->side();
   const RepairGuides& blocks = coarse_->blocks();
-  const int end = std::min(row_ + std::max(most * side / 2, 1), blocks.height);
+  const glm::ivec2 pixel = coarse_->nextPixel();
+  const int end = std::min(row_ + most * side / 2, blocks.height);
   std::atomic<uint64_t> rays = 0;
   tbb::parallel_for(row_, end, [&](int y) {
     uint64_t traced = 0;
     for (int x = 0; x < blocks.width; ++x) {
-      const int u = side * x + cell_ % side, v = side * y + cell_ / side;
+      const int u = side * x + pixel.x, v = side * y + pixel.y;
       const bool isInside = u < view_.width && v < view_.height;
+      const bool isUsed = !blocks.isAtLight(x, y);
+      if (!isInside && !isUsed) continue;
       const auto block = static_cast<size_t>(y * blocks.width + x);
+      // Of the pixels outside, the nearest one gets another path.
+      const auto sample = static_cast<uint32_t>(isInside ? 0 : coarse_->traced());
       for (size_t half = 0; half < 2; ++half) {
         const vec3 radiance = wholePath(tracing, std::min(u, view_.width - 1),
-                                        std::min(v, view_.height - 1), half, 0, traced);
+                                        std::min(v, view_.height - 1), half, sample, traced);
         if (isInside) whole_.add(half == 0, static_cast<size_t>(v * view_.width + u), radiance);
-        if (!blocks.isAtLight(x, y)) coarse_->add(half == 0, block, radiance);
+        if (isUsed) coarse_->add(half == 0, block, radiance);
       }
     }
     rays += traced;
@@ -172,14 +183,13 @@ int PathRepair::traceCells(const FrameInputs& in, const Options& options, int mo
   const int work = (2 * (end - std::exchange(row_, end)) + side - 1) / side;
   if (row_ < blocks.height) return work;
   row_ = 0;
-  ++cell_;
   coarse_->endPaths();
-  if (cell_ == side * side) {
+  if (coarse_->traced() == side * side) {
     coarse_.reset();
     whole_.endPath();
     whole_.endPath();
     if (isShown(paths(), shown_, options.paths, options.isPreview)) beginFilter();
-  } else if (options.isPreview && isShownCoarsely(cell_, side * side)) {
+  } else if (options.isPreview && isShownCoarsely(coarse_->traced(), side * side)) {
     coarse_->beginFilter(live_);
   }
   return work;
@@ -188,10 +198,7 @@ int PathRepair::traceCells(const FrameInputs& in, const Options& options, int mo
 int PathRepair::filterBlocks(int most) {
   const int side = coarse_->side();
   const int rows = coarse_->filter(kFilterRows * side * most);
-  if (!coarse_->isFiltering()) {
-    repaired_ = coarse_->image();
-    isWrong_ = coarse_->error() > kLeastError;
-  }
+  if (!coarse_->isFiltering()) repaired_ = coarse_->image();
   return (rows + kFilterRows * side - 1) / (kFilterRows * side);
 }
 

@@ -41,6 +41,7 @@ class PathRepair {
   // Whether a preview that ends at this number of paths needs more: its error is large and it has
   // few paths, or some are not shown yet.
   bool isUrgent(int wanted) const {
+    if (hasBegun() && hasNoPixels()) return false;
     const bool isNew = filter_ && mostShown_ < whole_.paths;
     return isWrong_ && (whole_.paths < std::min(wanted, kQuickPaths) || isNew);
   }
@@ -56,7 +57,7 @@ class PathRepair {
   void begin(const FrameInputs& in, const Options& options);
   void takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview, bool endsAtSurfaces);
   bool hasSeenLight(int x, int y, size_t half, uint32_t sample) const;
-  // What all paths of a frame go through.
+  // The scene of the current frame.
   struct Tracing {
     const RenderScene& scene;
     const RayCaster& caster;
@@ -64,7 +65,10 @@ class PathRepair {
   struct Start;
   Start startAt(const Tracing& in, int x, int y, size_t half, uint32_t sample, uint64_t& rays);
   vec3 wholePath(const Tracing& in, int x, int y, size_t half, uint32_t sample, uint64_t& rays);
-  int traceCells(const FrameInputs& in, const Options& options, int most);
+  // The next part of the work; returns what goOn() does.
+  int advance(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
+              int most);
+  int traceBlocks(const FrameInputs& in, const Options& options, int most);
   int tracePaths(const FrameInputs& in, const Options& options, const MirroredLight* surfaces,
                  int most);
   void beginFilter();
@@ -87,10 +91,9 @@ class PathRepair {
   // last with fewer paths, because it is similar for many pixels.
   PathSums whole_, ended_, missing_;
   int row_ = 0;  // first row without the next paths
-  // While the first path of each half is traced: one pixel of each block after the other. Then
-  // null.
+  // Not null while the first path of each half of a large preview is traced: of one pixel of each
+  // block after the other.
   std::unique_ptr<CoarsePreview> coarse_;
-  int cell_ = 0;                            // number of pixels of each block that are traced
   std::unique_ptr<ResidualFilter> filter_;  // of missing_, then of all_; or of whole_
   std::optional<Image> lacking_;   // the filtered error of known light, while all_ is filtered
   PathSums all_;                   // sum of whole_, minus lacking_, and of ended_

@@ -30,7 +30,7 @@ class PathSums {
     squares_[pixel] += glm::dot(group, group);
     group = vec3(0.0f);
   }
-  // After all pixels got a path, of the halves in turn.
+  // After all pixels of a half got a path. If both halves did, call it twice.
   void endPath() {
     ++paths;
     weight += 1.0f;

@@ -77,21 +77,4 @@ RepairGuides RepairGuides::inBlocks(int side) const {
   return blocks;
 }
 
-// Of blocks at the sky or a lamp nothing is known: 0, like their paths.
-Image blockMeans(const Image& picture, const RepairGuides& blocks, int side) {
-  Image means(blocks.width, blocks.height);
-  tbb::parallel_for(0, blocks.height, [&](int y) {
-    for (int x = 0; x < blocks.width; ++x) {
-      if (blocks.isAtLight(x, y)) continue;
-      const int right = std::min(side * (x + 1), picture.width),
-                below = std::min(side * (y + 1), picture.height);
-      vec3 sum(0.0f);
-      for (int v = side * y; v < below; ++v)
-        for (int u = side * x; u < right; ++u) sum += picture.at(u, v);
-      means.at(x, y) = sum / static_cast<float>((right - side * x) * (below - side * y));
-    }
-  });
-  return means;
-}
-
 }  // namespace lamplighter

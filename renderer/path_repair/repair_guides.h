@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "renderer/backends/gbuffer_view.h"
-#include "renderer/image/image.h"
 #include "renderer/scene/camera.h"
 
 namespace lamplighter {
@@ -33,8 +32,5 @@ struct RepairGuides {
  private:
   const vec3& normalAt(int x, int y) const { return normal[static_cast<size_t>(y * width + x)]; }
 };
-
-// The mean of a picture over each block of these guides.
-Image blockMeans(const Image& picture, const RepairGuides& blocks, int side);
 
 }  // namespace lamplighter

@@ -6,7 +6,7 @@
 
 #include "renderer/image/image_io.h"
 #include "tests/support/folders.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 #include "tests/support/process.h"
 
 namespace lamplighter::test {

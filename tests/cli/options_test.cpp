@@ -10,7 +10,7 @@
 #include "editor/document/write_file.h"
 #include "renderer/base/error.h"
 #include "renderer/registry/registry.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "editor/session/session.h"
 #include "editor/tools/projection.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 

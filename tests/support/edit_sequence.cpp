@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 

@@ -4,7 +4,7 @@
 
 #include "renderer/raycast/ray_caster.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "editor/session/user_state.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 #include "tests/ui/driven_window.h"
 
 namespace lamplighter {

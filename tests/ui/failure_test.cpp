@@ -6,7 +6,7 @@
 #include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 #include "tests/support/failing_kernels.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 #include "tests/ui/driven_window.h"
 
 namespace lamplighter {

@@ -7,7 +7,7 @@
 
 #include "editor/session/user_state.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 #include "ui/app/application.h"
 #include "ui/platform/headless.h"
 

@@ -5,8 +5,8 @@
 
 #include "editor/session/session.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

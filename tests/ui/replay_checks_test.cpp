@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/image/image_io.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter {
 namespace {

@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 #include "tests/ui/driven_window.h"
 
 namespace lamplighter {

@@ -18,12 +18,12 @@ void values(const PanelContext& ui, Requests& requests) {
     if (!section(ui, part.label.c_str(), part.isOpen)) continue;
     for (const ParameterSpec& spec : part.table.specs()) {
       labelledRow(ui, spec.label.c_str(), spec.help.c_str());
-      if (const auto offered = part.offered.find(spec.name); offered != part.offered.end()) {
+      if (const auto& offered = offeredValues(spec.name); !offered.empty()) {
         const std::string now = Settings::format(settings.real(spec));
-        const int chosen = combo(ui, spec.name, now, offered->second);
+        const int chosen = combo(ui, spec.name, now, offered);
         if (chosen != kNone)
           requests.actions.push_back("settings.set " + spec.name + "=" +
-                                     offered->second[static_cast<size_t>(chosen)]);
+                                     offered[static_cast<size_t>(chosen)]);
       } else if (const auto value = parameterField(ui, spec, settings, false)) {
         requests.actions.push_back("settings.set " + spec.name + "=" + Settings::format(*value));
       }

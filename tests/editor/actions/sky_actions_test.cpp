@@ -6,8 +6,8 @@
 #include "editor/document/sky_text.h"
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

@@ -16,7 +16,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/error.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/scaled_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/scaled_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

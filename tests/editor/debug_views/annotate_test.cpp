@@ -7,9 +7,9 @@
 #include "editor/debug_views/look.h"
 #include "editor/debug_views/vpl_overlay.h"
 #include "renderer/base/error.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

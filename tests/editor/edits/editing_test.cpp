@@ -7,7 +7,7 @@
 #include "editor/edits/edits.h"
 #include "editor/edits/tree.h"
 #include "renderer/base/error.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -8,7 +8,7 @@
 #include "editor/lights/light_table_edits.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "renderer/image/average_blocks.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
 
 namespace lamplighter {

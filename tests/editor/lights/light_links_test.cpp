@@ -11,7 +11,7 @@
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/light_picture.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "editor/lights/colour_temperature.h"
 #include "editor/lights/light_list.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

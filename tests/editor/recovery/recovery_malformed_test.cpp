@@ -5,7 +5,7 @@
 
 #include "editor/recovery/recovery.h"
 #include "renderer/base/error.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter::test {
 

@@ -11,7 +11,7 @@
 #include "renderer/registry/registry.h"
 #include "tests/editor/session_fixture.h"
 #include "tests/support/failing_kernels.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter {
 namespace {

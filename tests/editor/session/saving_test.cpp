@@ -12,7 +12,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter::test {
 

@@ -3,7 +3,7 @@
 
 #include "editor/session/session.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "tests/support/scaled_scene.h"
+#include "tests/support/scenes/scaled_scene.h"
 
 namespace lamplighter {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "editor/tools/projection.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

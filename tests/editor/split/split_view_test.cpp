@@ -5,7 +5,7 @@
 #include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 
 namespace lamplighter {
 namespace {

@@ -8,8 +8,8 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "tests/editor/session_fixture.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/lit_scene.h"
 
 namespace lamplighter {
 namespace {

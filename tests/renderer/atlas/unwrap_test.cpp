@@ -8,7 +8,7 @@
 
 #include "renderer/atlas/skyline.h"
 #include "renderer/scene/render_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

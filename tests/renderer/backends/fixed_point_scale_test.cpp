@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/random_boxes.h"
+#include "tests/support/scenes/random_boxes.h"
 
 namespace lamplighter::cpu {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/render.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -8,11 +8,11 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/random_boxes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/random_boxes.h"
 #include "tests/support/render.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

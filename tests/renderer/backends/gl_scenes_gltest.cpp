@@ -8,8 +8,8 @@
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/folders.h"
 #include "tests/support/images.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {

@@ -5,9 +5,9 @@
 #include "renderer/backends/gl/gl_backend.h"
 #include "shaders/shared/vpl_shading.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/random_boxes.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/random_boxes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -8,10 +8,10 @@
 #include "renderer/light_maps/pass_merging.h"
 #include "shaders/shared/patches.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/room_lights.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/room_lights.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

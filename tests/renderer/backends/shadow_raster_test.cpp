@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/room_lights.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/room_lights.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

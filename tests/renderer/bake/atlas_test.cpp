@@ -10,7 +10,7 @@
 #include "renderer/bake/page_dilation.h"
 #include "renderer/bake/second_uvs.h"
 #include "renderer/base/error.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

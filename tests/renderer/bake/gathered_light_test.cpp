@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/random.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

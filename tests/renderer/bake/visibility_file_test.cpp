@@ -8,7 +8,7 @@
 
 #include "docs/reference/visibility_reader.h"
 #include "renderer/base/random.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

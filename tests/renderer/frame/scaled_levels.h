@@ -7,7 +7,7 @@
 
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/scaled_scene.h"
+#include "tests/support/scenes/scaled_scene.h"
 
 namespace lamplighter::test {
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
 
 namespace lamplighter {

@@ -4,7 +4,7 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/shader_source.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter {
 namespace {

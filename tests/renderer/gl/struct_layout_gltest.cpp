@@ -9,7 +9,7 @@
 #include "shaders/shared/vpl.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/folders.h"
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter {
 namespace {

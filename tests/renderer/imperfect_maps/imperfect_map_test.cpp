@@ -10,9 +10,9 @@
 #include "renderer/imperfect_maps/occluder_points.h"
 #include "renderer/imperfect_maps/rest_maps.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -1,7 +1,7 @@
 // A level for tests of occluders: bodies of many sizes.
 #pragma once
 
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 

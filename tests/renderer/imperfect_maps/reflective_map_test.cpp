@@ -11,7 +11,7 @@
 #include "renderer/imperfect_maps/bidirectional_importance.h"
 #include "renderer/imperfect_maps/light_choice.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "renderer/light_field/field_gather.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 

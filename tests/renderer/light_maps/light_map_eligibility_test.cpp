@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/lit_scene.h"
-#include "tests/support/random_boxes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/random_boxes.h"
 
 namespace lamplighter {
 namespace {

@@ -12,10 +12,10 @@
 #include "renderer/light_maps/accumulate.h"
 #include "shaders/shared/vpl_shading.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/random_boxes.h"
-#include "tests/support/room_lights.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/random_boxes.h"
+#include "tests/support/scenes/room_lights.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

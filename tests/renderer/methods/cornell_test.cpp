@@ -7,8 +7,8 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scene_files.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {
 namespace {

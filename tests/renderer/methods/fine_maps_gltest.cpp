@@ -6,9 +6,9 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scene_files.h"
+#include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/frame/frame.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scene_files.h"
+#include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {
 namespace {

@@ -8,8 +8,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_proxies.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scene_files.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {
 namespace {

@@ -8,8 +8,8 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scene_files.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {
 namespace {

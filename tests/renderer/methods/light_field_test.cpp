@@ -4,7 +4,7 @@
 
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/method_room.h"
+#include "tests/support/scenes/method_room.h"
 
 namespace lamplighter {
 namespace {

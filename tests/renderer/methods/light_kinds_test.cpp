@@ -16,8 +16,8 @@
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/scenes.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

@@ -8,10 +8,10 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/random_boxes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/random_boxes.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

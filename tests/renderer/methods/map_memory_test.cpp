@@ -8,10 +8,10 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

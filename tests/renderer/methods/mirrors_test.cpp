@@ -1,9 +1,9 @@
 // Glossy reflections: shown in the second frame at rest, also without antialiasing.
 #include <gtest/gtest.h>
 
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

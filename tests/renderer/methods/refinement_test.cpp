@@ -3,7 +3,7 @@
 #include <tbb/global_control.h>
 
 #include "renderer/image/metrics.h"
-#include "tests/support/small_room.h"
+#include "tests/support/scenes/small_room.h"
 
 namespace lamplighter {
 namespace {

@@ -5,7 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "renderer/image/metrics.h"
-#include "tests/support/method_room.h"
+#include "tests/support/scenes/method_room.h"
 
 namespace lamplighter {
 namespace {

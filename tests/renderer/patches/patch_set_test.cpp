@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/low_discrepancy.h"
-#include "tests/support/random_boxes.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/random_boxes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -2,7 +2,7 @@
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/small_room.h"
+#include "tests/support/scenes/small_room.h"
 
 namespace lamplighter {
 namespace {

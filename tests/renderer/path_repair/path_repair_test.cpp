@@ -4,7 +4,7 @@
 
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/small_room.h"
+#include "tests/support/scenes/small_room.h"
 
 namespace lamplighter {
 namespace {
@@ -145,25 +145,37 @@ TEST_F(Repaired, EditsLeaveFreshBits) {
   expectFresh({}, "fewer paths");
 }
 
-// Large pictures are repaired before each pixel has a path, and the paths are the same.
+// Large pictures are repaired before each pixel has a path. The same paths repair the settled
+// picture, also if it settles while blocks are traced.
 TEST_F(Repaired, PreviewsLargePicturesInBlocks) {
   view.width = 480;
-  view.height = 321;
-  previewRows = 4;
-  previewFrames = 3;
+  view.height = 321;  // not a multiple of the side of a block
   settings.set("repair", 2);
-  settings.set("updates", 1);
-  const Image first = step(SceneChanges::all()).radiance->pixels();
-  GiOutput out = step();
-  for (int i = 0; i < 400 && sameBits(out.radiance->pixels(), first); ++i) {
-    settings.set("updates", 0);
+  settings.set("updates", 2);  // so that it settles slowly
+  previewRows = 48;
+  previewFrames = 3;
+  Image live = step(SceneChanges::all()).radiance->pixels();
+  GiOutput out;
+  bool isRepaired = false;
+  for (int frame = 0; frame < 100 && !isRepaired; ++frame) {
     out = step();
+    ASSERT_FALSE(out.settled) << frame;
+    EXPECT_LE(out.stats.previewUpdates, previewRows);
+    // Frames that only trace paths show the last picture of the method until it is repaired.
+    if (out.stats.updates == 0 && out.stats.previewUpdates > 0)
+      isRepaired = !sameBits(out.radiance->pixels(), live);
+    else
+      live = out.radiance->pixels();
   }
-  EXPECT_FALSE(sameBits(out.radiance->pixels(), first));
+  EXPECT_TRUE(isRepaired);
   EXPECT_EQ(out.stats.of("paths_repaired"), 0);
-  previewRows = 0;
   settings.set("updates", 4096);
+  previewRows = 1;
+  for (int frame = 0; frame < 400 && !out.settled; ++frame) out = step();
+  ASSERT_TRUE(out.settled);
+  EXPECT_EQ(out.stats.of("paths_repaired"), 0);  // it settled while blocks were traced
   const Image picture = rest({}).radiance->pixels();
+  previewRows = 0;
   EXPECT_TRUE(sameBits(picture, fresh()));
 }
 

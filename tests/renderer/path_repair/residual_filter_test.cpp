@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/random.h"
-#include "tests/support/lit_scene.cpp"
+#include "tests/support/scenes/lit_scene.h"
 
 namespace lamplighter {
 namespace {

@@ -10,7 +10,7 @@
 #include "renderer/probes/probe_light.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {

@@ -7,9 +7,9 @@
 #include "renderer/frame/world.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

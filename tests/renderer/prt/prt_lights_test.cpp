@@ -10,8 +10,8 @@
 #include "renderer/base/threads.h"
 #include "renderer/prt/incident_light.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/prt/prt_lights.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/threads.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

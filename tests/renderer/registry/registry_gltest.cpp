@@ -8,7 +8,7 @@
 #include "renderer/registry/registry.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

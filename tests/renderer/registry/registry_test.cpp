@@ -11,7 +11,7 @@
 #include "renderer/debug_views/debug_view.h"
 #include "renderer/frame/frame.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -7,7 +7,7 @@
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
 #include "renderer/sampling/emitters/lights.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/scaled_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scaled_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/low_discrepancy.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "shaders/shared/vpl_shading.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -8,7 +8,7 @@
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_footprints.h"
 #include "renderer/sampling/vpl_set.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

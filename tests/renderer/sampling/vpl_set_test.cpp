@@ -7,9 +7,9 @@
 
 #include "renderer/sampling/sun_shadow_tiles.h"
 #include "renderer/sampling/vpl_counts.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

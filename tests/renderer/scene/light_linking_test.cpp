@@ -10,12 +10,12 @@
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scene_equality.h"
-#include "tests/support/scenes.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/scene_equality.h"
+#include "tests/support/scenes/scenes.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

@@ -7,9 +7,9 @@
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/render_scene.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/scene_equality.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/scene_equality.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

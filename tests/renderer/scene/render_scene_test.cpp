@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/surface.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

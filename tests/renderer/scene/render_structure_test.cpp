@@ -7,8 +7,8 @@
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/render_scene.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/random_boxes.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/random_boxes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -7,7 +7,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "renderer/surface_depths/surface_depths.h"
 #include "renderer/surface_depths/texel_links.h"
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/scenes.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/scenes.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

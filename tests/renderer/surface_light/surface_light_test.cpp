@@ -10,7 +10,7 @@
 #include "renderer/surface_light/form_factor.h"
 #include "tests/support/edit_sequence.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

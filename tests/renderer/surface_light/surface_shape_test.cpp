@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/surface_light/triangle_division.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -10,7 +10,7 @@
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/surface_light/blockers.h"
 #include "renderer/surface_light/form_factor.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

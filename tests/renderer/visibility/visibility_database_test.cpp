@@ -11,10 +11,10 @@
 
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/random_boxes.h"
-#include "tests/support/room_lights.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/random_boxes.h"
+#include "tests/support/scenes/room_lights.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {

@@ -9,11 +9,11 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/visibility/visibility_database.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/room_lights.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/room_lights.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -11,7 +11,7 @@
 #include "renderer/light_field/light_field.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {

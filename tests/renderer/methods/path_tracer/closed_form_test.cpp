@@ -6,7 +6,7 @@
 
 #include "renderer/scene/light_shapes.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -16,7 +16,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
-#include "tests/support/scene_files.h"
+#include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "renderer/methods/path_tracer/path_tracer.h"
 #include "renderer/raycast/ray_caster.h"
-#include "tests/support/small_room.h"
+#include "tests/support/scenes/small_room.h"
 
 namespace lamplighter {
 namespace {

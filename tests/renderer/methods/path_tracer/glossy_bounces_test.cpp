@@ -9,9 +9,9 @@
 
 #include "renderer/methods/path_tracer/path_tracer.h"
 #include "shaders/shared/brdf.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

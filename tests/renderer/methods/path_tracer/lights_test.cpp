@@ -15,9 +15,9 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
 #include "tests/support/render.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
-#include "tests/support/skies.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
+#include "tests/support/scenes/skies.h"
 
 namespace lamplighter {
 namespace {

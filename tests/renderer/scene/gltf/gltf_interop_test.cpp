@@ -6,8 +6,8 @@
 #include <tiny_gltf.h>
 
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {

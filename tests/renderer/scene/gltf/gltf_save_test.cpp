@@ -8,9 +8,9 @@
 
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/scene_equality.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/scene_equality.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {

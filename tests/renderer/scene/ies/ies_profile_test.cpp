@@ -6,8 +6,8 @@
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/render_scene.h"
-#include "tests/support/gltf_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/gltf_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "renderer/visibility/occlusion/back_facing_lights.h"
 #include "renderer/visibility/occlusion/occluders.h"
-#include "tests/support/room_lights.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/room_lights.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/room_lights.h"
-#include "tests/support/scene_files.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/room_lights.h"
+#include "tests/support/scenes/scene_files.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
 namespace {

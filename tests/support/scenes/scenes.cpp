@@ -1,4 +1,4 @@
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 #include <cmath>
 

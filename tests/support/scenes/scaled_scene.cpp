@@ -1,7 +1,7 @@
-#include "tests/support/scaled_scene.h"
+#include "tests/support/scenes/scaled_scene.h"
 
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/support/method_room.h"
+#include "tests/support/scenes/method_room.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "tests/support/skies.h"
+#include "tests/support/scenes/skies.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "tests/support/gltf_files.h"
+#include "tests/support/scenes/gltf_files.h"
 
 #include <atomic>
 #include <cstring>

@@ -2,9 +2,9 @@
 // the clamp distance.
 #pragma once
 
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 

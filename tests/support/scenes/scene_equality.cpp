@@ -1,4 +1,4 @@
-#include "tests/support/scene_equality.h"
+#include "tests/support/scenes/scene_equality.h"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "tests/support/lit_scene.h"
+#include "tests/support/scenes/lit_scene.h"
 
 #include <cstring>
 

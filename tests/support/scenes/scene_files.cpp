@@ -1,8 +1,8 @@
-#include "tests/support/scene_files.h"
+#include "tests/support/scenes/scene_files.h"
 
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter::test {

@@ -1,9 +1,9 @@
-#include "tests/support/random_boxes.h"
+#include "tests/support/scenes/random_boxes.h"
 
 #include <random>
 
-#include "tests/support/lit_scene.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scenes/lit_scene.h"
+#include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {
 namespace {

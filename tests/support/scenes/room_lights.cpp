@@ -1,4 +1,4 @@
-#include "tests/support/room_lights.h"
+#include "tests/support/scenes/room_lights.h"
 
 namespace lamplighter::test {
 

@@ -1,0 +1,34 @@
+// What methods of baking make of their parameters.
+#include "editor/bake/bake_methods.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/registry/registry.h"
+
+namespace lamplighter {
+namespace {
+
+TEST(BakeMethods, TakeTheBouncesAndTheSeedOfTheirMethods) {
+  for (const BakeMethodInfo& method : bakeMethods()) {
+    EXPECT_NO_THROW(findMethod(method.name)) << method.name;
+    Settings settings;
+    settings.set("bounces", 3);
+    settings.set("seed", 7);
+    const BakeLightOptions light = bakeLightOptions(method.name, settings);
+    EXPECT_EQ(light.paths.bounces, 3) << method.name;
+    EXPECT_EQ(light.paths.seed, 7u) << method.name;
+  }
+}
+
+TEST(BakeMethods, DefaultsForBakingGiveWayToWhatIsSet) {
+  const auto texelOf = [](const Settings& settings) {
+    return bakeLightOptions("surface_shadow_maps", settings).texels.texel;
+  };
+  Settings settings;
+  EXPECT_FLOAT_EQ(texelOf(settings), 0.1f);
+  settings.set("texel", 0.5f);
+  EXPECT_FLOAT_EQ(texelOf(settings), 0.5f);
+}
+
+}  // namespace
+}  // namespace lamplighter
