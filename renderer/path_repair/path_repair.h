@@ -52,7 +52,7 @@ class PathRepair {
   const std::shared_ptr<RadianceImage>& image() const { return repaired_; }
 
  private:
-  static constexpr int kQuickPaths = 16;
+  static constexpr int kQuickPaths = 8;
 
   void begin(const FrameInputs& in, const Options& options);
   void takePicture(const std::shared_ptr<RadianceImage>& live, bool isPreview, bool endsAtSurfaces);
