@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -79,32 +80,96 @@ void printMethodsJson() {
   std::cout << all.dump(2) << '\n';
 }
 
+// A row of a Markdown table: the name, and the other cells.
+struct MethodRow {
+  std::string name, cells;
+  bool operator==(const MethodRow&) const = default;
+};
+
+std::vector<MethodRow> parameterRows(const MethodInfo& m) {
+  std::vector<MethodRow> rows;
+  for (const ParameterSpec& p : m.parameters)
+    rows.push_back(
+        {p.name, fmt::format("{} | {} | {} | {} | {} | {}", labelOf(p.group), kindOf(p), p.unit,
+                             Settings::format(p.defaultValue), rangeOf(p), p.help)});
+  return rows;
+}
+
+std::vector<MethodRow> statisticRows(const MethodInfo& m) {
+  std::vector<MethodRow> rows;
+  for (const StatisticSpec& s : m.statistics)
+    rows.push_back({s.name, fmt::format("{} | {} | {}", kindOf(s), s.unit, s.meaning)});
+  return rows;
+}
+
+std::vector<MethodRow> stageRows(const MethodInfo& m) {
+  std::vector<MethodRow> rows;
+  for (const StageSpec& s : m.stages) rows.push_back({std::string(s.name), std::string(s.meaning)});
+  return rows;
+}
+
+// A kind of tables. Rows that several methods have are in one table of their own.
+struct MethodTables {
+  std::string what, head;
+  std::vector<MethodRow> (*rowsOf)(const MethodInfo&);
+
+  bool isShared(const MethodRow& row) const {
+    return std::ranges::count_if(lamplighter::methods(), [&](const MethodInfo& m) {
+             const std::vector<MethodRow> rows = rowsOf(m);
+             return std::ranges::find(rows, row) != rows.end();
+           }) > 1;
+  }
+  void print(const std::vector<MethodRow>& rows) const {
+    if (rows.empty()) return;
+    std::cout << head;
+    for (const MethodRow& row : rows)
+      std::cout << fmt::format("| `{}` | {} |\n", row.name, row.cells);
+  }
+  void printShared() const {
+    std::vector<MethodRow> shared;
+    for (const MethodInfo& m : lamplighter::methods())
+      for (const MethodRow& row : rowsOf(m))
+        if (isShared(row) && std::ranges::find(shared, row) == shared.end()) shared.push_back(row);
+    print(shared);
+  }
+  void printOf(const MethodInfo& m) const {
+    std::vector<MethodRow> own;
+    std::string shared;
+    for (const MethodRow& row : rowsOf(m)) {
+      if (isShared(row))
+        shared += (shared.empty() ? "`" : ", `") + row.name + '`';
+      else
+        own.push_back(row);
+    }
+    if (!shared.empty()) std::cout << fmt::format("\nCommon {}: {}.\n", what, shared);
+    print(own);
+  }
+};
+
+const MethodTables kTables[] = {
+    {"parameters",
+     "\n| parameter | group | type | unit | default | range | |\n| --- | --- | --- | --- | --- | "
+     "--- "
+     "| --- |\n",
+     parameterRows},
+    {"statistics", "\n| statistic | kind | unit | |\n| --- | --- | --- | --- |\n", statisticRows},
+    {"stages", "\n| stage | |\n| --- | --- |\n", stageRows}};
+
 void printMethodsMarkdown() {
   std::cout
       << "# Parameters, statistics and stages\n\nWritten by `lamplighter methods --markdown`. "
-         "Parameters are set with `--set name=value`.\n";
+         "Parameters are set with `--set name=value`. Statistics are in the JSON of `render "
+         "--stats`: those of the last frame, and the work of all frames. Stages of a frame are in "
+         "`stages` of the same JSON and in the timeline, with their times.\n\n## Common to several "
+         "methods\n";
+  for (const MethodTables& tables : kTables) tables.printShared();
   for (const MethodInfo& m : lamplighter::methods()) {
     std::cout << fmt::format("\n## {}: {}\n\n{}\n\n- Needs: {}.\n", m.name, m.label, m.citation,
                              join(needsOf(m)));
     if (!m.shows.empty()) std::cout << fmt::format("- Shows: {}.\n", join(shownBy(m)));
     for (const MethodView& v : m.views)
       std::cout << fmt::format("- View `{}`: {}\n", v.name, v.help);
-    std::cout << fmt::format(
-        "\n| name | group | type | unit | default | range | |\n| --- | --- | "
-        "--- | --- | --- | --- | --- |\n");
-    for (const ParameterSpec& p : m.parameters) {
-      std::cout << fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", p.name, labelOf(p.group),
-                               kindOf(p), p.unit, Settings::format(p.defaultValue), rangeOf(p),
-                               p.help);
-    }
-    std::cout << "\nStatistics, as in the JSON of `render --stats`: those of the last frame, and "
-                 "the work of all frames.\n\n| name | kind | unit | |\n| --- | --- | --- | --- |\n";
-    for (const StatisticSpec& s : m.statistics)
-      std::cout << fmt::format("| `{}` | {} | {} | {} |\n", s.name, kindOf(s), s.unit, s.meaning);
-    std::cout << "\nStages of a frame, whose times are in the timeline and in `stages` of the same "
-                 "JSON.\n\n| name | |\n| --- | --- |\n";
-    for (const StageSpec& s : m.stages)
-      std::cout << fmt::format("| `{}` | {} |\n", s.name, s.meaning);
+    for (const MethodTables& tables : kTables) tables.printOf(m);
   }
 }
 
