@@ -84,7 +84,7 @@ void addProbe(ActionRegistry& r) {
 }
 
 void addMeasure(ActionRegistry& r) {
-  r.add({"measure.start", "Measure from now", "",
+  r.add({"measure.start", "Start measuring", "",
          "Starts the measuring tool: two clicks on surfaces measure a distance.", "",
          [](Session& s, const Arguments&) {
            s.points().setTool(PointTool::measure);

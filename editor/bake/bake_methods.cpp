@@ -28,7 +28,8 @@ BakeLightOptions referenceOptions(Settings settings) {
   return light;
 }
 
-// What all methods but the reference have in common: their parameters have the same names.
+// Options of all methods except the reference. Their parameters have the names of those of
+// many_lights; missing ones get its defaults.
 BakeLightOptions sampledOptions(const ManyLightsParameters& parameters) {
   BakeLightOptions light;
   light.paths.bounces = parameters.bounces;  // of probes

@@ -1,5 +1,5 @@
-// The methods that light maps, vertex colours and probes can be baked with, and what each of them
-// makes of its parameters.
+// The methods that light maps, vertex colours and probes can be baked with, and the conversion of
+// their parameters to options of baking.
 #pragma once
 
 #include <string>

@@ -31,8 +31,8 @@ struct ProbeReport {
 std::vector<std::string> probeFileNames(const std::string& name);
 
 // Writes NAME_probes.json and NAME_probes.exr (renderer/probes/probe_file.h), both or neither.
-// Returns none if `progress` returned false; it receives the number of probes. Deterministic.
-// Throws InputError, also if the scene has no surface.
+// Returns nullopt if `progress` returns false; `progress` receives the number of probes.
+// Deterministic. Throws InputError, also if the scene has no surface.
 std::optional<ProbeReport> bakeProbes(const Scene& scene, const ProbeJobOptions& options,
                                       const BakeProgress& progress);
 

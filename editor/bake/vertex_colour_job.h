@@ -29,8 +29,8 @@ struct LitScene {
 };
 
 // A copy whose meshes have the light in their vertex colours; nodes that are lit differently have
-// meshes of their own. Returns none if `progress` returned false; it receives the number of nodes.
-// Deterministic. Throws InputError if there is nothing to light.
+// meshes of their own. Returns nullopt if `progress` returns false; `progress` receives the number
+// of nodes. Deterministic. Throws InputError if there is nothing to light.
 std::optional<LitScene> withVertexColours(const Scene& scene, const VertexColourOptions& options,
                                           const BakeProgress& progress);
 

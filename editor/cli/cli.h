@@ -28,7 +28,7 @@ struct ReplayOptions {
   bool frameClock = false;  // times count frames; costs of frames are not measured
   std::string method;       // "": the method of the recording
   // Values of parameters that replace the recorded ones: "name=value". Baselines are still
-  // compared: for a value that is the default only on the first backend.
+  // compared; the hash of the document ignores these values.
   std::vector<std::string> assignments;
   std::string backend = "auto";
   int threads = 0;  // 0: all cores

@@ -150,7 +150,8 @@ void compareFlags(CLI::App& sub, Run& run, const Frontend&) {
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   sub.add_option("--heatmap", o->heatmap, "PNG file of the differences")->type_name("FILE");
-  sub.add_option("--max-relrmse", o->maxRelRmse, "Exit code 1 if relRMSE is larger (for tests)")
+  sub.add_option("--max-relrmse", o->maxRelRmse,
+                 "Fail with exit code 1 if relRMSE is larger than this")
       ->type_name("X")
       ->check(CLI::NonNegativeNumber);
   sub.add_flag("--json", o->json, "As JSON");

@@ -48,8 +48,9 @@ void printSettingsMarkdown() {
          "arguments) and keys, over those of the setting `keys`:\n\n    {\"tool.move\": \"G\", "
          "\"light.add disk\": \"Ctrl+Shift+D\", \"view.vpls\": \"\", \"edit.redo\": "
          "\"Ctrl+Y, Ctrl+Shift+Z\"}\n\nAn empty text removes the keys. A key that belonged to "
-         "another action is removed from that action. Unknown actions and keys, and keys bound "
-         "twice are reported, one line each, in a toast and in the log (Shift+N). The file is "
+         "another action is removed from that action. Unknown actions, unknown keys and keys "
+         "that are bound twice are reported, one line each, in a toast and in the log (Shift+N). "
+         "The file is "
          "never written.\n";
 }
 

@@ -22,12 +22,12 @@ struct LightSender {
   struct Place {
     vec3 position{0.0f};  // world space [unit of the scene]
     float size = 0.0f;    // side of a square with its area [unit of the scene]
-    vec3 light{0.0f};     // irradiance of the point by it [W/m²]
+    vec3 light{0.0f};     // irradiance at the point from this place [W/m²]
     float irradiance() const { return luminance(light); }  // [lx]
   };
   SenderKey key;
   std::string name, material;
-  float irradiance = 0.0f;  // irradiance of the point by it [lx]
+  float irradiance = 0.0f;  // irradiance at the point from this surface [lx]
   vec3 colour{0.0f};        // of this light; the largest component is 1
   // Strongest first, up to kMostPlaces. Together they give all of the light: each represents others
   // near it.

@@ -125,9 +125,9 @@ const std::vector<PreferenceSection>& preferenceSections() {
   return kSections;
 }
 
-// A slider of the scale would move away from the pointer with each change.
 const std::vector<std::string>& offeredValues(const std::string& name) {
   static const std::map<std::string, std::vector<std::string>> kOffered{
+      // The panel is scaled while the slider is dragged, which would move it away from the pointer.
       {"ui_scale", {"0.75", "1", "1.25", "1.5", "2", "3"}}};
   static const std::vector<std::string> kSlider;
   const auto it = kOffered.find(name);

@@ -29,11 +29,11 @@ class LiveProbes {
   // Call after each frame with the changes of the scene since the last call. Off: does nothing. The
   // work is the given number of slices; the results depend only on the scene.
   void update(const RenderScene& scene, const RayCaster& rays, const SceneChanges& changes);
-  // Tells the time of the last update [s], so that the next ones fit into a few milliseconds.
+  // Call with the duration of the last update [s]: the next ones then fit into a few milliseconds.
   // Without this call all updates do the same amount of work.
   void took(double seconds);
 
-  // Whether another frame would not change anything.
+  // Whether further frames leave the light unchanged.
   bool settled() const { return !on_ || finished_ == grid_.probes.size(); }
   const ProbeGrid& grid() const { return grid_; }
   // Light by probe; 0 where it is not known yet.
@@ -62,9 +62,9 @@ class LiveProbes {
   std::vector<ProbeSh> light_;
   uint64_t surfaces_ = 0, lights_ = 0;  // revisions of the scene
   size_t next_ = 0;                     // next probe in the order of visits
-  size_t finished_ = 0,
-         samples_ = 0;  // finished nodes; samples of the current light
-  size_t visits_ = 0;   // visits of the next update; 0: the first one
+  size_t finished_ = 0;                 // nodes whose light is final
+  size_t samples_ = 0;                  // of the current light, of all nodes
+  size_t visits_ = 0;                   // visits of the next update; 0: the first one
   std::optional<ProbeReference> reference_;
   const RenderScene* scene_ = nullptr;  // of reference_
   const RayCaster* rays_ = nullptr;

@@ -101,7 +101,7 @@ Recovered read(const fs::path& folder) {
   }
   if (documentHash(out.document) != hash)
     out.warning =
-        folder.string() + ": not everything could be recovered; check it before you save it";
+        folder.string() + ": not everything could be recovered; check the level before you save it";
   return out;
 }
 

@@ -51,7 +51,7 @@ class ComparedSide {
 
   // The next frame that is rendered, this one or a later one, receives these changes.
   void note(const SceneChanges& changes, const Frame& frame);
-  // Whether another frame would not change anything.
+  // Whether further frames leave the picture unchanged.
   bool isDone(const Frame& frame) const;
   // Renders a frame; throws the exceptions of the renderer. `make`: creates the renderer on demand.
   void render(const Frame& frame, const MakeRenderer& make);

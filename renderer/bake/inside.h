@@ -6,8 +6,8 @@
 
 namespace lamplighter {
 
-// Tested by a few rays: most of them hit back faces that are not visible from outside. `key`:
-// selects the rays.
+// Tested by a few rays: most of them hit back faces of single-sided surfaces, which no camera sees.
+// `key`: selects the rays.
 bool isInside(const RenderScene& scene, const RayCaster& rays, const ReceivingPlace& at,
               uint32_t key);
 

@@ -1,4 +1,4 @@
-// The meshes of nodes and their objects, for replacing them by meshes of single nodes.
+// The meshes of nodes and their objects, to give each node a mesh of its own.
 #pragma once
 
 #include <memory>

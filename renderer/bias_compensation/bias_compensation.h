@@ -39,8 +39,8 @@ class BiasCompensation {
     // By object: the light between its parts is known from transfer, so that it is not missing at
     // its pixels. Empty: for no object. Must outlive this object.
     std::span<const uint8_t> reflectsWithin = {};
-    // By object: the direct light of pixels from it is exact (near_lamps.h). Empty: for no object.
-    // Must outlive this object.
+    // By object: the direct light that pixels receive from it is exact (near_lamps.h). Empty: for
+    // no object. Must outlive this object.
     std::span<const uint8_t> exactLamps = {};
     // For the light of each group of lights: the group of each VPL, and the emission of each
     // object. Must outlive this object. Empty: one group.

@@ -10,8 +10,8 @@
 
 namespace lamplighter {
 
-// Filter radius in pixels for a batch (from 1) of a picture with `height` rows; 0 for batches of at
-// least 37, and in very small pictures.
+// Filter radius in pixels for batch number `batch` (from 1) of a picture with `height` rows; 0 from
+// the 37th batch, and in very small pictures.
 int filterRadius(uint32_t batch, int height);
 
 // Adds to each pixel of the picture: the mean of the results of pixels within `radius` to each side

@@ -2,8 +2,8 @@
 // large lamp are spots: near it, surfaces show the spots, and the clamp of 1/d² removes light. The
 // sum U without shadows is off by F − U, F the form factor times the radiance. The unblocked share
 // of this difference is missing; the share is estimated as the ratio of sums with and without
-// shadows
-// (Heitz, Hill and McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", 2018).
+// shadows (Heitz, Hill and McGuire, "Combining Analytic Direct Illumination and Stochastic
+// Shadows", 2018).
 #pragma once
 
 #include <span>

@@ -15,7 +15,7 @@ const std::vector<DebugViewInfo>& fixedViews() {
   const Needs ofPatches{patches}, ofLights{lights}, ofPatchesAndLights{patches, lights},
       ofTexels{texels}, ofElements{elements}, ofTransfer{transfer};
   static const std::vector<DebugViewInfo> views = {
-      {DebugView::lit, "lit", "Lit", "Alt+1", "The picture without changes."},
+      {DebugView::lit, "lit", "Lit", "Alt+1", "The picture as it is lit."},
       {DebugView::lightOnly, "light_only", "Light only", "Alt+2",
        "Incident light: the picture with a white albedo on every surface."},
       {DebugView::direct, "direct", "Direct light", "",

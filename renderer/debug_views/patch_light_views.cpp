@@ -156,7 +156,7 @@ ViewPicture lightMapDensity(const ViewSubject& in) {
     const bool has = apart[i] > 0 && s.front;
     return outlined(p, s, i, shaded(has ? colours::ramp(t) : colours::kNoData, s));
   });
-  out.legend.title = "Distance of light map texels";
+  out.legend.title = "Distance between light map texels";
   out.legend.ramp = colours::rampSteps();
   out.legend.low = "0";
   char text[32];

@@ -13,7 +13,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr size_t kWide = 8;
+constexpr size_t kBatch = 8;
 constexpr uint32_t kGridSet = 0xb1, kGuideSet = 0xb2;
 // The unit of x in the density min(1, 1/x²) of guided samples, which the paper leaves open, as a
 // share of the width of the picture.
@@ -81,8 +81,8 @@ std::vector<float> bidirectionalImportance(const ReflectiveMap& map, const ViewS
   const float scale = 1.0f / static_cast<float>(samples.size());
   const Floats8 least = broadcast(clampDistance * clampDistance), zero = hn::Zero(kTag);
   tbb::parallel_for(0, map.columns(), [&](int column) {
-    static_assert(ReflectiveMap::kRows % kWide == 0);
-    for (int row = 0; row < ReflectiveMap::kRows; row += static_cast<int>(kWide)) {
+    static_assert(ReflectiveMap::kRows % kBatch == 0);
+    for (int row = 0; row < ReflectiveMap::kRows; row += static_cast<int>(kBatch)) {
       const size_t first = ReflectiveMap::indexOf(column, row);
       const SimdVec3<Floats8> at{loadAt(t.x, first), loadAt(t.y, first), loadAt(t.z, first)};
       const SimdVec3<Floats8> n{loadAt(t.nx, first), loadAt(t.ny, first), loadAt(t.nz, first)};

@@ -8,8 +8,8 @@
 namespace lamplighter {
 namespace {
 
-// Pixels are on the same surface if their normals differ by less than this cosine, and if the
-// distance of each from the plane of the other is less than this share of their distance.
+// Pixels are on the same surface if the cosine between their normals is at least kLeastCosine, and
+// if one lies off the plane of the other by at most kMostOff times the distance between both.
 constexpr float kLeastCosine = 0.9f, kMostOff = 0.1f;
 
 struct BlurPixel {

@@ -25,8 +25,8 @@ struct LightChoiceOptions {
 struct ChosenLights {
   std::vector<SceneVpl> lights;  // intensity I/(N·p)
   std::vector<uint32_t> texels;  // of each light
-  float defended = 0.0f;         // share of the flux of texels without importance, which only the
-                                 // defensive share chooses
+  // Share of all flux that is on texels without importance, which only the defensive share chooses.
+  float defended = 0.0f;
 };
 
 // N lights by one two-dimensional (0, 2)-net: a column by the sums of columns, then a row by its

@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint32_t kShiftSet = 0x5417;
 constexpr size_t kReceiversATime = 512;
-// Receivers below this cosine to the lines are traced with rays, because their plane is almost
-// parallel to the lines.
+// Receivers whose normal has a smaller cosine with the lines are traced with rays, because their
+// plane is almost parallel to the lines.
 constexpr float kGrazing = 0.03f;
 // A crossing at most this far in front of the own plane belongs to the own surface [cells].
 constexpr float kOwnDepth = 0.1f;
@@ -97,7 +97,8 @@ Sight seenAlong(const LineRaster& raster, const glm::ivec2& cell, const vec3& at
   int next = cosine > 0.0f ? 0 : count - 1;
   const int step = cosine > 0.0f ? 1 : -1;
   while (next >= 0 && next < count && behind(crossings[static_cast<size_t>(next)])) next += step;
-  // The own surface must be at the centre of the cell: otherwise another surface is in front of it.
+  // The last crossing before the partner must be on the surface of the receiver: otherwise the line
+  // does not tell what the receiver sees.
   const int before = next - step;
   if (before < 0 || before >= count) return Sight::unclear;
   const LineCrossing& last = crossings[static_cast<size_t>(before)];

@@ -111,7 +111,7 @@ class LightField final : public TexelIrradiance {
   PartnerRadiance sources_, sent_;
   std::vector<vec3> lampLight_;        // irradiance by lamps and suns, by texel [W/m²]
   FieldSums sourceSums_, bounceSums_;  // sums of the first set
-  FieldSums setSums_;                  // sums of the other sets so far, of the shown light
+  FieldSums setSums_;                  // sums of the shown light over the other sets so far
   size_t nextOfSets_ = 0;              // next direction of the other sets
   std::vector<vec3> former_;           // previous light, while all partners are computed again
   std::vector<vec3> irradiance_;       // by texel

@@ -100,9 +100,8 @@ class LightMaps {
   }
   // The texels of an object; rgb is E [W/m²].
   std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
-  const Revision& coverage() const {
-    return coverage_;
-  }  // changes with the set of patches that have tiles
+  // Changes with the set of patches that have tiles.
+  const Revision& coverage() const { return coverage_; }
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }
   // Changes with the tiles of an object and their positions in texels().
   const Revision& tiling(uint32_t object) const { return objects_[object].tiling; }

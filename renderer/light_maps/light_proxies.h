@@ -1,7 +1,6 @@
 // Light proxies: lights that replace others where these would need shadow map look-ups.
-// - A VPL without a map (because of the memory limit, or not rendered yet) is replaced by a light
-// of the
-//   same brightness at the position of the nearest VPL with a map.
+// - A VPL without a map (memory does not suffice, or it is not rendered yet) is replaced by a light
+//   of the same brightness at the position of the nearest VPL with a map.
 // - A group of VPLs close to each other is replaced by a light of their total brightness at the
 //   position of one of them (Walter et al., Lightcuts, 2005). This applies to patches far from the
 //   group that would need the maps of all its VPLs, and to glossy lobes that are wide compared with

@@ -16,7 +16,8 @@
 
 namespace lamplighter {
 
-// Keeps references to these objects; they must outlive it and must not change.
+// Keeps references to these objects; they must outlive it and must not change
+// during its lifetime.
 class PatchLights {
  public:
   // maps: null if there are none; maps without memory count as none. mergesPasses: sum the lights

@@ -36,7 +36,8 @@ class BouncedPicture {
   }
   // Estimate of the frames until isDone(), without further changes. It counts each sample as one
   // frame, though those of a large picture take several: RepairedMethod uses this number to decide
-  // whether paths are traced first, which also take longer in a large picture.
+  // whether to trace paths before the picture has settled; these take longer in a large picture,
+  // too.
   int framesLeft(int antialias) const;
   // For debug views. Null without light. Valid until the next update.
   std::shared_ptr<const ElementView> elements() const;

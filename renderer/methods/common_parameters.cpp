@@ -21,8 +21,8 @@ const ParameterTable<PathParameters>& pathParameters() {
        "bounces",
        "Bounces",
        "",
-       "Number of indirect bounces. More: brighter dark areas; each bounce costs additional work. "
-       "0: direct light only.",
+       "Number of indirect bounces. More: brighter dark areas; each bounce costs work, except with "
+       "light samples, whose number is fixed. 0: direct light only.",
        {0, 64},
        lightSamples},
       seedParameters().inGroup(lightSamples)};

@@ -18,8 +18,8 @@ const ParameterTable<SurfaceLightParameters>& surfaceLightParameters() {
        "Gather rays",
        "",
        "Rays from each corner of an element that find the bounced light that arrives there. More: "
-       "less noise; rays and memory grow in proportion. At least 32 are used even if link_memory "
-       "is too small.",
+       "less noise; rays and memory grow in proportion. If link_memory is too small, they become "
+       "fewer, but not fewer than 32.",
        {16, 4096, kLogarithmic},
        ParameterGroup::quality},
       {&P::mask,

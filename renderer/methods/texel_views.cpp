@@ -14,7 +14,7 @@ namespace {
 
 // Number of links that is shown as white.
 constexpr float kManyLinks = 1000.0f;
-// Share of segments per pixel of the depth maps that is shown as white.
+// Number of segments per pixel of the depth maps that is shown as white.
 constexpr float kManySegments = 0.25f;
 // Share of errors that is shown as white; rays per texel that find them.
 constexpr float kLargeError = 0.25f;

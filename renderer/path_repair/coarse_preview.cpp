@@ -11,11 +11,12 @@ namespace {
 // A picture has about this number of blocks, which are at most kMostSide pixels wide.
 constexpr float kBlocks = 64000.0f;
 constexpr int kMostSide = 4;
-// Blocks in the middle of which a pixel lies do not count alone: they may show a lamp.
+// Added to the weight of each block around a pixel: if the pixel is in the middle of a block that
+// shows a lamp, the others count.
 constexpr float kLeastShare = 0.01f;
-// If the weights of the blocks around a pixel sum to less than this, none shows its surface.
+// If the weights of the blocks that show the surface of a pixel sum to less than this, none does.
 constexpr float kLeastWeight = 1e-4f;
-// A pixel that no block around it shows is scaled like these, at most by this factor.
+// A pixel whose surface no block around it shows is scaled like these, at most by this factor.
 constexpr float kMostScale = 4.0f;
 
 }  // namespace
@@ -36,7 +37,8 @@ void CoarsePreview::endPaths() {
   sums_.endPath();
 }
 
-// All pixels in turn, far from each other: 7 has no common divisor with 4, 9 and 16.
+// Visits all pixels of a block; consecutive ones are far apart. 7 has no common divisor with 4, 9
+// and 16.
 glm::ivec2 CoarsePreview::pixelOf(int path) const {
   const int pixel = (7 * path + side_ / 2 * (side_ + 1)) % (side_ * side_);
   return {pixel % side_, pixel / side_};
@@ -48,8 +50,8 @@ void CoarsePreview::beginFilter(const std::shared_ptr<RadianceImage>& live) {
   filter_ = std::make_unique<ResidualFilter>(blocks_, means_, sums_);
 }
 
-// Of the pixels that paths went through: otherwise texture would count as an error of the picture.
-// Of blocks at the sky or a lamp nothing is known: 0, like their paths.
+// Averages the pixels that have paths: with all pixels, texture would count as an error of the
+// picture. Blocks at the sky or a lamp have no paths; their mean is 0, too.
 Image CoarsePreview::meansOf(const Image& picture) const {
   Image means(blocks_.width, blocks_.height);
   tbb::parallel_for(0, blocks_.height, [&](int y) {
@@ -86,7 +88,8 @@ void CoarsePreview::show(const Image& residual) {
   image_ = std::make_shared<HostImage>(std::move(out));
 }
 
-// From the four blocks around the middle of a pixel, by how far they show the same surface.
+// The residual of a pixel from the four blocks around it: of those that show its surface, by
+// albedo; if there are none, by the share of light that all of them lack.
 vec3 CoarsePreview::residualAt(const Image& residual, int x, int y) const {
   const auto i = static_cast<size_t>(y * pixels_.width + x);
   const vec3 normal = pixels_.normal[i], position = pixels_.position[i];

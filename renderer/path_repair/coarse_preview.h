@@ -10,12 +10,12 @@
 
 namespace lamplighter {
 
-// What a picture lacks at first is mostly smooth. So the first paths of some pixels are taken as
-// paths of blocks of k × k pixels, the filter of residuals runs on blocks, and its result is
-// enlarged along surfaces. The sky, lamps and pixels beside them stay as they are.
+// The error of an early picture is mostly smooth. So the first paths of some pixels count as paths
+// of blocks of k × k pixels, ResidualFilter runs on blocks, and the residual is interpolated
+// between blocks that show the same surface. The sky, lamps and pixels beside them are not changed.
 class CoarsePreview {
  public:
-  // The side of a block [pixels]; 1: the picture is small enough to do without.
+  // The side of a block [pixels]; 1: the picture is so small that it needs no preview in blocks.
   static int sideOf(int width, int height);
 
   // `pixels` must outlive this object.
@@ -25,21 +25,21 @@ class CoarsePreview {
 
   int side() const { return side_; }
   const RepairGuides& blocks() const { return blocks_; }
-  // The number of pixels of each block that have a path in each half, and the next one: its place
-  // in its block. The first is in the middle.
+  // The number of pixels of each block that have a path in each half.
   int traced() const { return sums_.paths / 2; }
+  // The position in its block of the next pixel; the first is in the middle.
   glm::ivec2 nextPixel() const { return pixelOf(traced()); }
   // Adds a path to a half of a block. Not for blocks at the sky or a lamp.
   void add(bool isFirst, size_t block, const vec3& radiance) {
     sums_.add(isFirst, block, radiance);
   }
-  // After each half of all blocks got a path.
+  // Call after each block got a path in both halves.
   void endPaths();
 
   void beginFilter(const std::shared_ptr<RadianceImage>& live);
   void dropFilter() { filter_.reset(); }
   bool isFiltering() const { return filter_ != nullptr; }
-  // At most this number of rows of a step; returns how many. At the end there is another image().
+  // Filters at most this number of rows of a step; returns how many. The last call renews image().
   int filter(int mostRows);
   // The repaired picture; null until there is one.
   const std::shared_ptr<RadianceImage>& image() const { return image_; }
@@ -55,7 +55,7 @@ class CoarsePreview {
   RepairGuides blocks_;
   PathSums sums_;
   std::shared_ptr<RadianceImage> live_;  // of the filter
-  Image means_;                          // of the traced pixels of live_, by block
+  Image means_;                          // mean of the traced pixels of live_, by block
   std::unique_ptr<ResidualFilter> filter_;
   std::shared_ptr<RadianceImage> image_;
 };

@@ -20,10 +20,9 @@ constexpr size_t kRaysAFrame = size_t{1} << 17;
 // The same while something moves: a few thousandths of a second.
 constexpr size_t kRaysMoving = size_t{1} << 15;
 // Two points lie on one surface if the distance of one from the plane of the other is less than
-// this share of their distance (so that curved surfaces are not divided), and the cosine between
-// their normals is larger than this.
-constexpr float kMostOffPlane = 0.2f;
-constexpr float kLeastCosine = 0.9f;
+// kMostOffPlane times their distance (so that curved surfaces are not divided), and the cosine
+// between their normals is larger than kLeastCosine.
+constexpr float kMostOffPlane = 0.2f, kLeastCosine = 0.9f;
 
 float offPlane(const GBufferPoint& p, const vec3& x) {
   const vec3 way = x - p.position;

@@ -151,8 +151,8 @@ vec3 PathRepair::wholePath(const Tracing& in, int x, int y, size_t half, uint32_
                                                                x, y, sample, start.path, &rays);
 }
 
-// The first path of each half, for one pixel of each block after the other. Returns the work in
-// rows of paths.
+// Traces the first path of each half: of one pixel of all blocks, then of the next one. Returns the
+// work in rows of paths.
 int PathRepair::traceBlocks(const FrameInputs& in, const Options& options, int most) {
   const Tracing tracing{in.scene, in.services.rays()};
   const int side = coarse_->side();
@@ -168,7 +168,7 @@ int PathRepair::traceBlocks(const FrameInputs& in, const Options& options, int m
       const bool isUsed = !blocks.isAtLight(x, y);
       if (!isInside && !isUsed) continue;
       const auto block = static_cast<size_t>(y * blocks.width + x);
-      // Of the pixels outside, the nearest one gets another path.
+      // In place of a pixel outside the picture, the nearest one inside gets another path.
       const auto sample = static_cast<uint32_t>(isInside ? 0 : coarse_->traced());
       for (size_t half = 0; half < 2; ++half) {
         const vec3 radiance = wholePath(tracing, std::min(u, view_.width - 1),

@@ -38,8 +38,8 @@ class PathRepair {
   // After goOn() with these options: whether image() has all paths.
   bool isDone(const Options& options) const;
   bool hasBegun() const { return live_ != nullptr; }
-  // Whether a preview that ends at this number of paths needs more: its error is large and it has
-  // few paths, or some are not shown yet.
+  // Whether a preview that ends at this number of paths is urgent: the error of the picture is
+  // large, and there are few paths, or paths that are not shown yet.
   bool isUrgent(int wanted) const {
     if (hasBegun() && hasNoPixels()) return false;
     const bool isNew = filter_ && mostShown_ < whole_.paths;

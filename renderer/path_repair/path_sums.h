@@ -30,7 +30,7 @@ class PathSums {
     squares_[pixel] += glm::dot(group, group);
     group = vec3(0.0f);
   }
-  // After all pixels of a half got a path. If both halves did, call it twice.
+  // Call after each pixel got a path in one half; call it twice if each got one in both.
   void endPath() {
     ++paths;
     weight += 1.0f;

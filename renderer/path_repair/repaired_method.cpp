@@ -27,7 +27,7 @@ const StatisticTable<RepairStats>& repairStatistics() {
        {.name = "paths_repaired",
         .label = "Repaired with",
         .unit = "paths",
-        .meaning = "Complete paths per pixel so far; 0 while the first repair in blocks is shown.",
+        .meaning = "Paths per pixel so far; 0 while the first repair in blocks is shown.",
         .status = "repaired with {}"}},
       {&S::wanted,
        {.name = "paths_to_repair",

@@ -74,8 +74,8 @@ class ResidualFilter {
   size_t next_ = 0;
   int row_ = 0;  // first row without the next step
   Image residual_;
-  // Sums of squares of the picture and, for pixels that show surfaces, of the difference of the
-  // halves.
+  // Sums of squares: of the picture; for pixels that show surfaces, of the picture and of half the
+  // difference of the halves.
   double light_ = 0.0, surfaceLight_ = 0.0, surfaceNoise_ = 0.0;
   double borderCommon_ = 0.0, borderPower_ = 0.0;  // of pixels that show no surface
   Evidence band_;       // evidence of the last band, over the whole picture

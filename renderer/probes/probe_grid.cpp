@@ -23,10 +23,10 @@ constexpr float kMargin = 1.05f;
 constexpr float kReach = 0.5f;
 constexpr size_t kMostWallsOfNode = 3;  // around a place
 constexpr float kAlike = 0.7f;          // normals whose cosine is larger are those of one wall
-// If a smaller share of the rays hits nothing on the other side of a surface, that side belongs to
-// the level.
+// A side of a surface belongs to the level if the share of its rays that hit nothing is smaller by
+// more than this than on the other side.
 constexpr float kLessOpen = 0.1f;
-// Surfaces at distances that differ by less than this share count as one.
+// Hits whose distances differ by less than this share of the distance count as one surface.
 constexpr float kSamePlace = 1e-4f;
 constexpr float kGrowth = 1.1f;  // growth of the spacing until the limit is met
 // Multiples of the spacing beyond this are not exact in a float.
@@ -50,7 +50,7 @@ std::array<vec3, kRays> evenDirections() {
 // The hits of the rays from a place.
 struct Surroundings {
   size_t fronts = 0, backs = 0;
-  size_t turned = 0;  // back faces of any surface, visible from outside or not
+  size_t turned = 0;  // back faces of all surfaces, also of double-sided ones
   float nearestFront = std::numeric_limits<float>::infinity();
   float nearestBack = std::numeric_limits<float>::infinity();
   // Surfaces nearer than the padding, the nearest one first: normal on the side of the place,

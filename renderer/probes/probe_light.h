@@ -14,10 +14,11 @@ namespace lamplighter {
 
 inline constexpr size_t kProbeCoefficients = 9;
 
-// Coefficients of the incident radiance L(ω) [W/(m² sr)] at a point, linear Rec. 709: c(l, m) = ∫
-// L(ω) Y(l, m)(ω) dω, with ω the direction to where the light comes from, in world space
-// (right-handed, Y up). Real spherical harmonics of order 3 (bands 0 to 2), orthonormal, without
-// the Condon-Shortley phase, at index l(l + 1) + m as in renderer/prt/spherical_harmonics.h:
+// Coefficients of the incident radiance L(ω) [W/(m² sr)] at a point, linear Rec. 709:
+//   c(l, m) = ∫ L(ω) Y(l, m)(ω) dω
+// with ω the direction to where the light comes from, in world space (right-handed, Y up). Real
+// spherical harmonics of order 3 (bands 0 to 2), orthonormal, without the Condon-Shortley phase, at
+// index l(l + 1) + m as in renderer/prt/spherical_harmonics.h:
 //   1/2 √(1/π),  1/2 √(3/π) {y, z, x},
 //   1/2 √(15/π) {x y, y z},  1/4 √(5/π) (3 z² − 1),  1/2 √(15/π) x z,  1/4 √(15/π) (x² − y²).
 using ProbeSh = std::array<vec3, kProbeCoefficients>;
@@ -74,9 +75,9 @@ std::vector<ProbeSh> probeLight(const ProbeGrid& grid, const ProbeSource& source
 // would darken interpolated light near walls:
 //
 // - Inside a double-sided object, whose inside placeProbes() cannot detect: more than half of the
-// rays hit back faces (Probe::behind). They become inside.
+//   rays hit back faces (Probe::behind). They become inside.
 // - Beside a level without sky and sun, such as around a closed house: more than half of the rays
-// hit nothing (Probe::open). They become dark.
+//   hit nothing (Probe::open). They become dark.
 //
 // Others stay valid: dark rooms are dark.
 void markUnlit(const RenderScene& scene, std::span<const ProbeSh> light, ProbeGrid& grid);

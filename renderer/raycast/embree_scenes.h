@@ -79,7 +79,7 @@ class EmbreeScenes {
   std::vector<Passing> passing_;  // when it was added
   std::vector<uint32_t> movers_;
   Bounds movingBounds_;
-  size_t toIgnore_ = 0;          // objects of still_ that no longer exist there
+  size_t toIgnore_ = 0;          // objects of still_ that moved or were removed: rays ignore them
   bool isQuicklyBuilt_ = false;  // still_
 };
 

@@ -79,7 +79,7 @@ class LightPaths {
   struct Path {
     LightPath path;
     Departure start;           // the distribution of its first step
-    bool isOwn = true;         // it departs by its own sample numbers
+    bool isOwn = true;         // the path that a newly opened scene would have
     bool hasMoved = false;     // its light has moved since the path was last processed
     size_t touched = kNoStep;  // first step that a moved object may block or no longer block
     size_t broken = kNoStep;   // first step whose hit point has moved

@@ -15,9 +15,9 @@ struct SampleShare {
 
 // Contribution of an emitter to the view (choice/lamp_importance.h).
 struct LampShare {
-  float importance =
-      0.0f;            // root mean square of its share of the light at points of the view, [0, 1]
-  float light = 0.0f;  // mean of its share of the light there, [0, 1]
+  // Root mean square of its share of the light at points of the view, [0, 1].
+  float importance = 0.0f;
+  float light = 0.0f;      // mean of its share of the light there, [0, 1]
   bool isLeftOut = false;  // gets no samples
   bool operator==(const LampShare&) const = default;
 };

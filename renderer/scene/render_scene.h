@@ -37,7 +37,7 @@ struct ObjectSlot {
   std::shared_ptr<const Mesh> mesh;  // null: the surface of an area light
   uint32_t primitive = 0;            // of the mesh
   AreaShape shape = AreaShape::rectangle;
-  vec2 size{0.0f};  // size of the area light at the last update
+  vec2 size{0.0f};  // size of the area light when it was last placed
   // Its part of the vertices and indices of the scene. No vertices: it was never shown.
   uint32_t firstVertex = 0, vertexCount = 0;
   uint32_t firstIndex = 0, indexCount = 0;

@@ -41,7 +41,7 @@ class ObjectCharts {
   // Call with all changes of the scene between calls of find().
   void outdate(const RenderSceneChanges& changes) { changes_.merge(changes); }
   // By object. Missing layouts are loaded or computed, in parallel. Area lights, empty objects, and
-  // objects with a scale of 0 have none. Valid until the next call.
+  // objects that are scaled by 0 along an axis have none. Valid until the next call.
   std::span<const ObjectAtlas> find(const RenderScene& scene, float texelsPerMetre);
 
   size_t computed() const { return computed_; }  // layouts since construction

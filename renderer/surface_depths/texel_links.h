@@ -1,7 +1,6 @@
 // Links by which texels receive light from nodes of the tree: form factor times visibility.
 // Refinement depends on geometry only, so edits of lights do not change links; a bounce is a sum
-// along the links
-// (paper 3 refines by energy in each frame and keeps no links; section 4.3).
+// along the links (paper 3 refines by energy in each frame and keeps no links; section 4.3).
 #pragma once
 
 #include <functional>

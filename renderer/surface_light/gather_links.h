@@ -15,7 +15,7 @@ namespace lamplighter {
 struct GatherLink {
   static constexpr uint32_t kSky = 0xffffffffu;     // the ray hits nothing
   static constexpr uint32_t kDark = 0xfffffffeu;    // a surface that reflects no light
-  static constexpr uint32_t kInside = 0xfffffffdu;  // a back face that is not visible from outside
+  static constexpr uint32_t kInside = 0xfffffffdu;  // the back of a single-sided surface
   uint32_t leaf = kDark;
   uint8_t u = 0, v = 0;        // weights of the second and third corner of the element [1/255]
   uint16_t distance = 0x7f80;  // the upper half of a float, rounded up [m]
@@ -97,7 +97,7 @@ class GatherLinks {
     return std::span(directions_).subspan(sets_[sample] * rays_, known_[sample]);
   }
   // Whether a sample lies inside an object or behind a wall: within this distance [m], several of
-  // its rays hit back faces that are not visible from outside.
+  // its rays hit backs of single-sided surfaces.
   bool isBuried(uint32_t sample, float within) const;
   // Harmonic mean of the hit distances of a sample [m]. Irradiance varies little within a fraction
   // of it (Ward, Rubinstein and Clear, "A Ray Tracing Solution for Diffuse Interreflection", 1988).

@@ -10,7 +10,8 @@
 namespace lamplighter {
 namespace {
 
-// If samples have many rays, only this share of them is used while anything changes.
+// If there are more than kManyLinks links in all, one in kLiveShare is used while anything except
+// brightness changes.
 constexpr int kLiveShare = 4;
 constexpr size_t kManyLinks = size_t{1} << 22;
 

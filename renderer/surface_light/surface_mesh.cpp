@@ -23,7 +23,7 @@ bool hasShape(const RenderScene& scene, uint32_t object) {
          !scene.materials[static_cast<size_t>(o.material)].isClear();
 }
 
-// No object has more than one in this number of the samples.
+// No object has more than 1 / kLargestPart of the samples.
 constexpr size_t kLargestPart = 8;
 
 // The area [m²] and the longest side [m] of an object.

@@ -73,7 +73,8 @@ SceneTexels::Update SceneTexels::take(const RenderScene& scene, Services& servic
   return out;
 }
 
-// Treats objects whose material changed for rays as moved. Returns whether there are any.
+// Treats objects as moved if their material now blocks rays differently. Returns whether there are
+// any.
 bool SceneTexels::takeSides(const RenderScene& scene) {
   const std::vector<Sides> before = std::exchange(sides_, sidesOf(scene));
   bool isOther = false;

@@ -43,8 +43,8 @@ class TexelLight {
     // Texels that are up to date: `known` of them from `first`, cyclically. The next call continues
     // where the last one ended, so that every texel is updated in turn while a light moves.
     size_t first = 0, known = 0;
-    bool isKept =
-        false;  // all were known before moves_; light that moves_ does not meet stays valid
+    // All were known before moves_; light that moves_ does not meet stays valid.
+    bool isKept = false;
     Since since = Since::rest;
     std::vector<vec3> factors;  // by texel
   };

@@ -25,7 +25,7 @@ constexpr int kBuriedRays = 32, kBuriedShare = 8;
 constexpr float kBuriedNear = 4.0f;
 constexpr uint32_t kBuriedSet = 0x8b;
 
-// The part of a texel on a triangle.
+// A sample point of a texel on a triangle.
 struct Covered {
   vec2 at;  // [texels]
   SurfacePlace place;

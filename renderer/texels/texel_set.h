@@ -70,7 +70,7 @@ class TexelSet {
   const SurfaceTexel& operator[](size_t texel) const { return texels_[texel]; }
 
   // Finds buried texels, which lie inside an object or behind a wall: several of their rays hit
-  // nearby back faces that are not visible from outside. Returns the number of rays.
+  // nearby backs of single-sided surfaces. Returns the number of rays.
   uint64_t findBuried(const RenderScene& scene, const RayCaster& rays);
   bool isBuried(size_t texel) const { return !isBuried_.empty() && isBuried_[texel] != 0; }
 

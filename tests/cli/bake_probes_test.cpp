@@ -6,8 +6,8 @@
 
 #include "renderer/image/image_io.h"
 #include "tests/support/folders.h"
-#include "tests/support/scenes/gltf_files.h"
 #include "tests/support/process.h"
+#include "tests/support/scenes/gltf_files.h"
 
 namespace lamplighter::test {
 namespace {

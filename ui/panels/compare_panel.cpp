@@ -41,8 +41,8 @@ std::optional<std::string> sideCombo(const PanelContext& ui, const char* label,
 void errorRow(const PanelContext& ui, Requests& requests) {
   const ErrorMeter& meter = ui.session.watch().meter;
   labelledRow(ui, "Error meter",
-              "Traces the reference in the background and shows the error of the picture. Uses "
-              "only processor time that the editor does not need.");
+              "Traces the reference in the background and shows the error of the picture. Runs "
+              "at low priority, so it takes little time from the editor.");
   bool on = meter.on();
   if (ImGui::Checkbox("##meter", &on)) requests.actions.emplace_back("error.meter");
   ui.name("meter");
@@ -64,7 +64,7 @@ void shownRow(const PanelContext& ui, Requests& requests) {
       Choice{"A | B", "both", "Side by side, with a divider to drag.", Shown::both},
       Choice{"A", "first", "A alone; Space shows the other.", Shown::first},
       Choice{"B", "second", "B alone; Space shows the other.", Shown::second},
-      Choice{"Heat", "heat", "The difference of A and B, in false colour.", Shown::heat},
+      Choice{"Heat", "heat", "The difference between A and B, in false colour.", Shown::heat},
       Choice{"All", "tiles",
              "All methods as tiles with the error of each. Each frame renders the picture and one "
              "tile, which makes frames longer; each method keeps a copy of the level in memory.",

@@ -38,7 +38,7 @@ void senderRow(const PanelContext& ui, const LightSenders& senders, const LightS
   tooltip(ui,
           fmt::format(
               "{}{}{}: contributes {} to the point, {} of its bounced light. Click to draw lines "
-              "to the places from which it comes, in its colour; brighter lines contribute more.",
+              "to the places that reflect this light, in its colour. Brighter lines: more light.",
               sender.name, sender.material.empty() ? "" : ", ", sender.material,
               luxText(sender.irradiance), percentText(senders.shareOf(sender))));
   ImGui::TableNextColumn();

@@ -103,8 +103,7 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
                                  ? "settled in " + frames(stats.framesUntilSettled)
                                  : "updating";
     parts.push_back({"settled", withIcon(icon::kUpdating, text), theme::kAccent,
-                     "Estimated frames until all updates are done: first the light samples, then "
-                     "antialiasing."});
+                     "Estimated frames until all updates are done, antialiasing included."});
   }
   parts.push_back({"time", frameTime(info.frameSeconds), theme::kText,
                    "Time per frame, averaged over the last frames."});

@@ -31,7 +31,9 @@ const ParameterTable<Parameters>& parameterTable() {
        "Falloff",
        "",
        "How much light a surface nearer than the radius transmits. none: no light. linear, root: "
-       "more with its distance, and all light at the radius. No cost in time.",
+       "more with its distance, and all light at the radius. none is fastest, because its rays "
+       "stop at any "
+       "surface.",
        {{"none", Falloff::none}, {"linear", Falloff::linear}, {"root", Falloff::root}}},
       seedParameters(),
       sampleParameters()};

@@ -25,7 +25,7 @@ class ExactSum {
     SurfacePictureOptions pixels;
     int antialias = 1;                 // shifted pictures, at least 1
     OccluderPool pool;                 // for imperfect maps
-    std::span<const SceneVpl> direct;  // light samples on the lights, for the light in corners
+    std::span<const SceneVpl> direct;  // light samples on the lights, for bias compensation
   };
 
   void restart();
@@ -59,7 +59,7 @@ class ExactSum {
   std::vector<Image> irradiance_;  // of each shifted picture, by the first `summed_` lights
   size_t summed_ = 0;
   Image sum_;
-  int compensationRow_ = 0;  // rows that have the light in corners
+  int compensationRow_ = 0;  // rows that are compensated
   std::vector<BiasCompensation::Pixel> compensation_;
 };
 

@@ -20,7 +20,7 @@ using EndStage = std::function<void(const StageSpec&)>;
 
 class ImperfectPicture {
  public:
-  // Call in each frame. Updates to the scene and the view.
+  // Call in each frame. Follows changes of the scene and the view.
   void update(const FrameInputs& in, const ImperfectParameters& wanted, const EndStage& endStage);
   // The direct light of a frame.
   struct Direct {

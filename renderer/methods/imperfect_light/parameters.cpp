@@ -81,7 +81,7 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        lightSamples},
       {&P::betweenTexels, "between_texels", "Between texels",
        "Places samples between potential samples that are close in the picture, so that they slide "
-       "over surfaces as the camera moves. Costs exactness; off: samples lie exactly at potential "
+       "over surfaces as the camera moves. Less exact; off: samples lie exactly at potential "
        "samples.",
        lightSamples},
       {&P::adapt,
@@ -100,21 +100,21 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "occluder_points",
        "Occluder points",
        "points",
-       "Points on the surfaces that are drawn into each imperfect shadow map; rounded to a power "
-       "of two. More: fewer errors of visibility; the time of each map grows in proportion.",
+       "Points on the surfaces that are drawn into each imperfect shadow map; rounded down to a "
+       "power of two. More: fewer errors of visibility; the time of each map grows in proportion.",
        {64, 65536, kLogarithmic},
        quality},
       {&P::twoSided, "two_sided", "Points for both ends",
        "Occluder points are dense where surfaces cover a large solid angle as seen from visible "
-       "points and from light samples. Takes slightly more time to place points. Off: only as seen "
-       "from visible points, as published.",
+       "points and from light samples. Points are placed again whenever the light samples "
+       "change. Off: only as seen from visible points, as published.",
        quality},
       {&P::resolution,
        "imperfect_resolution",
        "Imperfect map size",
        "texels",
-       "Side of an imperfect shadow map; rounded to a power of two. More: finer shadows and less "
-       "light leaking, but more holes between points and more time per map.",
+       "Side of an imperfect shadow map; rounded down to a power of two. More: finer shadows, "
+       "but more holes between points, which leak light, and more time per map.",
        {16, 256, kLogarithmic},
        quality},
       {&P::splats,
@@ -122,7 +122,7 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "Points drawn as",
        "",
        "Shape in which occluder points are drawn. tilted: discs on the surface. billboard: discs "
-       "that face the light, as published; causes more false shadows, at no less cost.",
+       "that face the light, as published; causes more false shadows.",
        {{"billboard", SplatShape::billboard}, {"tilted", SplatShape::tilted}},
        quality},
       {&P::fill,
@@ -131,7 +131,7 @@ const ParameterTable<ImperfectParameters>& imperfectParameters() {
        "",
        "How texels that no point covers are filled. planes: between points on one plane. "
        "pull_push: by means of their neighbourhood, as published, which adds false shadows. none: "
-       "no occluder, which leaks light but costs no time.",
+       "they stay empty, which takes no time but leaks light.",
        {{"none", HoleFilling::none},
         {"pull_push", HoleFilling::pullPush},
         {"planes", HoleFilling::planes}},

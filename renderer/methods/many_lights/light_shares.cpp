@@ -15,7 +15,7 @@
 namespace lamplighter {
 namespace {
 
-// Work per frame: lights × pixels summed, and pixels for which corner light is traced.
+// Work per frame: lights × pixels summed, and pixels whose bias is compensated.
 constexpr uint64_t kLightPixelsAFrame = uint64_t{1} << 24;
 constexpr int kCompensatedPixelsPerFrame = 1 << 16;
 constexpr int kLampPixelsAFrame =
@@ -87,8 +87,8 @@ void LightShares::begin(const Inputs& in) {
 
 void LightShares::goOn(const Inputs& in) {
   if (phase_ == Phase::idle) begin(in);
-  if (phase_ == Phase::corners) {
-    traceCorners(in);
+  if (phase_ == Phase::compensation) {
+    traceCompensation(in);
   } else if (phase_ != Phase::done) {
     sumNext(in);
   }
@@ -137,16 +137,16 @@ void LightShares::sumNext(const Inputs& in) {
     if (isShown) addScaled(shares_[next_].light, image->pixels(), weight);
     ++next_;
   }
-  if (isShown && in.options.corners && !correctNearLamps(in, jitter, weight)) return;
+  if (isShown && in.options.isCompensated && !correctNearLamps(in, jitter, weight)) return;
   next_ = 0;
   lampRows_ = 0;
   hasEmission_ = false;
   picture_ += isShown ? 1 : 0;
-  phase_ = picture_ < pictures_ ? Phase::shifted
-           : in.options.corners ? Phase::corners
-                                : Phase::done;
+  phase_ = picture_ < pictures_       ? Phase::shifted
+           : in.options.isCompensated ? Phase::compensation
+                                      : Phase::done;
   if (picture_ < pictures_) return;
-  if (in.options.corners) keepWithoutCorners(in);
+  if (in.options.isCompensated) keepUncompensated(in);
   const auto weights = weightsFor(in.controls);
   in.kernels.dropShares(weights ? weights->ofShares : std::vector<vec3>());
 }
@@ -172,7 +172,7 @@ bool LightShares::correctNearLamps(const Inputs& in, vec2 jitter, float weight) 
   return lampRows_ == view.height;
 }
 
-void LightShares::keepWithoutCorners(const Inputs& in) {
+void LightShares::keepUncompensated(const Inputs& in) {
   uncompensated_ = Image(in.frame.view.width, in.frame.view.height);
   mixTo(*weightsFor(in.controls), uncompensated_);
   if (nearLamps_.empty()) return;
@@ -184,7 +184,7 @@ void LightShares::keepWithoutCorners(const Inputs& in) {
     for (vec3& p : s.light.pixels) p = glm::max(p, vec3(0.0f));
 }
 
-void LightShares::traceCorners(const Inputs& in) {
+void LightShares::traceCompensation(const Inputs& in) {
   const View& view = in.frame.view;
   if (rows_ == view.height) return addCompensation(in);
   std::vector<SceneVpl> vpls;
@@ -208,12 +208,12 @@ void LightShares::traceCorners(const Inputs& in) {
   options.groups = groups;
   options.emissions = emissions;
   options.exactLamps = lamps.exactLamps();
-  const BiasCompensation corners(in.frame.scene, in.frame.services.rays(), vpls, options);
+  const BiasCompensation compensation(in.frame.scene, in.frame.services.rays(), vpls, options);
   pixels_.resize(pixelsOf(view));
   contributions_.resize(static_cast<size_t>(view.height));
   const int end =
       std::min(view.height, rows_ + std::max(1, kCompensatedPixelsPerFrame / view.width));
-  corners.findRows(view, vec2(0.0f), rows_, end, pixels_, contributions_);
+  compensation.findRows(view, vec2(0.0f), rows_, end, pixels_, contributions_);
   rows_ = end;
 }
 

@@ -1,7 +1,7 @@
 // A settled picture as the sum of contributions of single lights, so that a change of brightness
 // only changes the weights of the sum (the light mix of V-Ray and Corona). Each share is the light
 // that surfaces reflect of one control of brightness (light_controls.h) at its reference
-// brightness, directly and after bounces, antialiased and with the light of corners.
+// brightness, directly and after bounces, antialiased and with bias compensation.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class LightShares {
     int antialias = 1;  // pictures with shifted pixels; 1: only the picture without jitter
     shared::ShadingParams shading;
     bool mergePasses = false;
-    bool corners = false;
+    bool isCompensated = false;
     BiasCompensation::Options corner;  // without groups
   };
   struct Inputs {
@@ -44,11 +44,11 @@ class LightShares {
 
   // Call when the picture changed in more than the brightness of lights.
   void restart(ManyLightsKernels& kernels);
-  // Continues by the work of a frame. Changes the G-buffer.
+  // Does the work of one frame. Changes the G-buffer.
   void goOn(const Inputs& in);
   bool isDone() const { return phase_ == Phase::done; }
-  // Whether the next goOn() traces corner light.
-  bool tracesCorners() const { return phase_ == Phase::corners; }
+  // Whether the next goOn() compensates the bias.
+  bool compensatesBias() const { return phase_ == Phase::compensation; }
   // Approximate number of steps until it is done, about one per frame.
   int stepsLeft() const;
 
@@ -64,15 +64,15 @@ class LightShares {
   // because of the memory limit, or a light is new. Requires isDone().
   std::optional<Weights> weightsFor(const LightControls& controls) const;
   std::shared_ptr<RadianceImage> mix(const View& view, const Weights& weights);
-  // The picture before corner light and near lamps were added, with the gains at that time; empty
-  // without them.
+  // The picture before bias compensation and near lamps were added, with the gains at that time;
+  // empty without them.
   Image takeUncompensated() { return std::move(uncompensated_); }
 
   int lightsWithoutShare() const { return lightsWithoutShare_; }
   size_t bytes() const;
 
  private:
-  enum class Phase : uint8_t { idle, middle, shifted, corners, done };
+  enum class Phase : uint8_t { idle, middle, shifted, compensation, done };
   struct Share {
     std::vector<uint32_t> controls;
     Image light;
@@ -80,8 +80,8 @@ class LightShares {
   void begin(const Inputs& in);
   void sumNext(const Inputs& in);
   bool correctNearLamps(const Inputs& in, vec2 jitter, float weight);
-  void keepWithoutCorners(const Inputs& in);
-  void traceCorners(const Inputs& in);
+  void keepUncompensated(const Inputs& in);
+  void traceCompensation(const Inputs& in);
   void addCompensation(const Inputs& in);  // to the next share
   void mixTo(const Weights& weights, Image& picture) const;
 
@@ -96,8 +96,8 @@ class LightShares {
   std::vector<uint32_t> shareOf_;  // by control
   std::vector<vec3> mixedIn_;      // by control of a share for several: its gain; otherwise 1
   EmissionShares emission_;
-  int rows_ = 0;            // with corners
-  size_t compensated_ = 0;  // number of shares with corner light
+  int rows_ = 0;            // that are compensated
+  size_t compensated_ = 0;  // number of shares with bias compensation
   std::vector<BiasCompensation::Pixel> pixels_;
   std::vector<std::vector<BiasCompensation::Contribution>> contributions_;
   Image uncompensated_;

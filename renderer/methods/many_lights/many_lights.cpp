@@ -150,7 +150,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
   part_ = in.part;
   started_ = true;
 
-  // 6. If nothing else is pending, find the light of corners and antialias: one sample per frame.
+  // 6. If nothing else is pending, compensate bias and antialias: one sample per frame.
   if (samplesOtherwise) {
     samples_ = 0;
     compensation_.outdate();
@@ -166,7 +166,7 @@ GiOutput ManyLights::renderSamples(const FrameInputs& in, Options& options, Stag
     out.settled = isReady && !isHasty_ && !isLimited_ && samples_ == samples;
     out.radiance = out.settled && samples > 0 ? mean_ : image_;
     if (options.biasCompensation) {
-      out.radiance = fillCorners(in, options, out.radiance, out.settled, stages);
+      out.radiance = compensateBias(in, options, out.radiance, out.settled, stages);
       out.settled = out.settled && compensation_.isWhole(in.view);
     }
   }

@@ -39,8 +39,8 @@ class ManyLights final : public GiMethod {
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(*kernels_, std::move(computeTransfer_)); }
   Inspection inspect() const override;
-  // Whether the direct light of emissive surfaces is computed elsewhere, so that they get no light
-  // samples.
+  // Sets whether the direct light of emissive surfaces is computed elsewhere; if so, they get no
+  // light samples.
   void leaveOutSurfaces(bool areLeftOut) { withoutSurfaces_ = areLeftOut; }
   // Whether the backend has the G-buffer of the view without a shift. Must be set by code that
   // draws another G-buffer between frames.
@@ -92,9 +92,9 @@ class ManyLights final : public GiMethod {
              ManyLightsStats& stats) const;
   void refine(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
               ManyLightsStats& stats);
-  std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
-                                             const std::shared_ptr<RadianceImage>& picture,
-                                             bool isSmooth, StageTimer& stages);
+  std::shared_ptr<RadianceImage> compensateBias(const FrameInputs& in, const Options& options,
+                                                const std::shared_ptr<RadianceImage>& picture,
+                                                bool isSmooth, StageTimer& stages);
   void addSample(const FrameInputs& in, const Options& options, StageTimer& stages);
 
   ManyLightsKernels* kernels_;  // of the backend
@@ -126,8 +126,8 @@ class ManyLights final : public GiMethod {
   std::unique_ptr<LightMaps> lightMaps_;            // if enabled
   std::unique_ptr<PrtLights> prt_;                  // if enabled
   bool gbufferIsCurrent_ = false;
-  // Whether the last sum left pixels, or also highlights, to later frames; whether a sum from
-  // scratch would have done so.
+  // sumIsLimited_: the last sum left pixels to later frames. isLimited_: it left pixels or
+  // highlights. isLong_: a sum from scratch would leave some.
   bool sumIsLimited_ = false, isLimited_ = false, isLong_ = false;
   bool isHasty_ = false;                  // the camera moves: fewer samples, more interpolation
   std::shared_ptr<RadianceImage> image_;  // picture with unjittered pixels

@@ -35,7 +35,7 @@ struct ManyLightsOptions : ManyLightsParameters {
   int imperfectBounces = 0;
   bool useImperfect() const { return imperfectBounces > 0; }
   ImperfectParameters imperfect() const;
-  // They also show the sky without suns.
+  // Light on surface elements includes that of the sky without suns.
   bool useMeshes() const { return indirect == ManyLightsIndirect::meshes; }
 
   bool useVisibility() const { return technique != ManyLightsTechnique::naive; }

@@ -55,7 +55,8 @@ const ParameterTable<P>& manyLightsParameters() {
        "level. field: texels exchange light, also of the sky, with what they see in a fixed set of "
        "directions (method light_field). automatic: on the cpu backend links in rooms without sky "
        "and glossy materials whose surfaces are larger than texels, imperfect in levels of very "
-       "many triangles without a sky or with more than 32 lamps, otherwise meshes; samples on gl "
+       "many triangles without a sky or with more than 32 lamps and 10,000 triangles, otherwise "
+       "meshes; samples on gl "
        "and with prt.",
        {{"automatic", ManyLightsIndirect::automatic},
         {"samples", ManyLightsIndirect::samples},
@@ -289,7 +290,7 @@ const ParameterTable<P>& manyLightsParameters() {
        "settled. 1: off.",
        {1, 256, kLogarithmic},
        picture},
-      {&P::biasCompensation, "bias_compensation", "Corner light",
+      {&P::biasCompensation, "bias_compensation", "Bias compensation",
        "Adds the light that clamp_distance removed, mostly in corners, once the picture is "
        "settled: "
        "one short ray per pixel, then smoothed. Near lamps of few triangles and even radiance, it "

@@ -1,4 +1,5 @@
-// The stages of ManyLights once its lights are at rest: shares, antialiasing, corners, refinement.
+// The stages of ManyLights once its lights are at rest: shares, antialiasing, bias compensation,
+// refinement.
 #include <algorithm>
 
 #include "renderer/methods/many_lights/many_lights.h"
@@ -99,7 +100,7 @@ void ManyLights::goOnWithShares(const FrameInputs& in, const Options& options, S
                               shadingOf(options, false), options.mergePasses,
                               options.biasCompensation,  compensationOptions(in, options)};
   gbufferIsCurrent_ = false;
-  const bool traces = shares_.tracesCorners();
+  const bool traces = shares_.compensatesBias();
   shares_.goOn({in, *kernels_, paths_.lights(), lights_.table(), controls_, visibility_.get(),
                 groups, wanted});
   stages.end(traces ? kBiasCompensationStage : kSharesStage);
@@ -143,7 +144,7 @@ void ManyLights::refine(const FrameInputs& in, const Options& options, StageTime
   stages.end(kRefinementStage);
 }
 
-std::shared_ptr<RadianceImage> ManyLights::fillCorners(
+std::shared_ptr<RadianceImage> ManyLights::compensateBias(
     const FrameInputs& in, const Options& options, const std::shared_ptr<RadianceImage>& picture,
     bool isSmooth, StageTimer& stages) {
   if (isSmooth && !compensation_.isWhole(in.view)) {

@@ -20,8 +20,8 @@ struct LocalSurface {
   vec3 ng, ns;
   std::optional<GlossySurface> gloss;
   uint32_t leftOutBy;  // light_linking.h
-  bool isSpace =
-      false;  // a point in space without surface, which receives light from all directions equally
+  // A point in space without surface, which receives light from all directions equally.
+  bool isSpace = false;
 
   LocalSurface(const Surface& surface, const vec3& toViewer, uint32_t links)
       : s(surface), leftOutBy(links) {

@@ -15,7 +15,7 @@ namespace {
 
 using Floats = Floats8;
 
-using Wide = SimdVec3<Floats>;
+using Vector3 = SimdVec3<Floats>;
 
 Ray rayFrom(const vec3& point, const shared::Vpl& vpl) {
   Ray ray{point, 0.0f, vec3(vpl.normal)};
@@ -35,9 +35,9 @@ bool isSamePlace(const shared::Vpl& a, const shared::Vpl& b) {
 // Conservative test whether a segment with the given middle, extending by ±half, touches a box
 // around the origin with half-size `size`: separating axis test with the box axes and their cross
 // products with the segment (Gottschalk, Lin and Manocha, "OBBTree", 1996).
-hn::Mask<FloatTag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
-  const Wide along{hn::Abs(half.x), hn::Abs(half.y), hn::Abs(half.z)};
-  const Wide e = broadcast(size);
+hn::Mask<FloatTag> mayTouchBox(const Vector3& middle, const Vector3& half, const vec3& size) {
+  const Vector3 along{hn::Abs(half.x), hn::Abs(half.y), hn::Abs(half.z)};
+  const Vector3 e = broadcast(size);
   const auto isNear = [](Floats off, Floats way, Floats reach) {
     return hn::Le(hn::Abs(off), hn::Add(way, reach));
   };
@@ -91,13 +91,13 @@ void PointVisibility::outdate(Row& row, std::span<const Obstacle> obstacles) con
       return hn::Load(kTag, &v[b * kLanes]);
     };
     const PointBlocks::Vectors& positions = points_.positions();
-    const Wide point{load(positions.x), load(positions.y), load(positions.z)};
-    const Wide way = broadcast(light) - point;
+    const Vector3 point{load(positions.x), load(positions.y), load(positions.z)};
+    const Vector3 way = broadcast(light) - point;
     const Floats half = broadcast(0.5f);
-    const Wide halfWay{hn::Mul(way.x, half), hn::Mul(way.y, half), hn::Mul(way.z, half)};
+    const Vector3 halfWay{hn::Mul(way.x, half), hn::Mul(way.y, half), hn::Mul(way.z, half)};
     for (const Obstacle& o : obstacles) {
       const vec3 centre = o.box.centre();
-      const Wide middle = broadcast(light - centre) - halfWay;
+      const Vector3 middle = broadcast(light - centre) - halfWay;
       const vec3 size = 0.5f * (o.box.max - o.box.min) + 2.0f * (rounding + o.rounding);
       row.known[b] &= static_cast<uint8_t>(~bitsOf(mayTouchBox(middle, halfWay, size)));
     }

@@ -90,7 +90,7 @@ struct GltfDocument {
   bool usesExtension(const char* name) const;
 };
 
-// Removes control characters and shortens long texts, for messages of one line.
+// Replaces control characters by '?' and shortens long texts, for messages of one line.
 std::string printable(std::string_view text);
 
 // The lights of extensions as top-level lists.

@@ -28,8 +28,9 @@ struct MaterialState {
   const Material& material;
   vec3 nominalEmission;
 };
-// Adds to `out` the changes of the material with this index: only its emission if it is the surface
-// of an area light, which reflects nothing, or a material that emits before and after.
+// Adds to `out` the changes of the material with this index. A change of emission alone is noted as
+// such if the material is the surface of an area light, which reflects nothing, or emits before and
+// after; otherwise the material has changed.
 void noteMaterial(const MaterialState& before, const MaterialState& now, int index,
                   bool isOfAreaLight, RenderSceneChanges& out);
 

@@ -1,4 +1,4 @@
-// Reflection at a visible point of light that is stored on surfaces, towards the eye.
+// Reflection towards the eye, at a visible point, of light that is stored on surfaces.
 #pragma once
 
 #include "renderer/backends/gbuffer_view.h"

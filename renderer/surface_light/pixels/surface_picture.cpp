@@ -18,7 +18,7 @@ uint16_t packed(float share) {
   return static_cast<uint16_t>(std::clamp(share, 0.0f, 1.0f) * kMost + 0.5f);
 }
 
-// A hash of the position in the world and on the triangle, with a chance of collision of 2⁻³².
+// A hash of the position in the world and on the triangle, with a chance of collision of 2⁻³¹.
 uint32_t keyOf(const GBufferPoint& p, const SeenTriangle& seen) {
   const auto bits = [](float x) { return std::bit_cast<uint32_t>(x); };
   const uint32_t inWorld =

@@ -32,7 +32,7 @@ constexpr int kSmoothPasses = 4;
 // corners have small radii, and few of 64 rays hit a small bright spot.
 constexpr float kSmoothRadius = 1.5f;
 
-// Radius of use of a record of the finest level [pixels].
+// Minimum radius of use of a record of the finest level [pixels].
 constexpr float kFinestRadius = 24.0f;
 
 // Neighbouring records gather light from different directions; together, 4 × 4 cells cover all

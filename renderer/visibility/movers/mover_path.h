@@ -18,8 +18,8 @@ struct MoverPlace {
   Caster caster;
   std::vector<Bounds> groups;
 };
-// Largest distance that the bounding sphere or one of the boxes moved or grew, in the metric `way`
-// [m]. Infinite if the numbers of boxes differ.
+// Largest distance that the bounding sphere or one of the boxes moved or grew, measured by
+// `metric` [m]. Infinite if the numbers of boxes differ.
 float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& metric);
 
 class MoverPath {
@@ -31,7 +31,7 @@ class MoverPath {
 
   // Adds one step of all movers. Returns the amount by which all marks must be lowered, down to 0.
   Mark advance(std::span<const MoverPlace> before, std::span<const MoverPlace> now);
-  // The same, given that no box moved or grew by more than `distance`, in the metric of metric()
+  // The same, given that no box moved or grew by more than `distance`, measured by metric()
   // [m]. `size`: radius of the smallest mover [m].
   Mark advance(float distance, float size);
 
@@ -39,7 +39,7 @@ class MoverPath {
   const MotionMetric& metric() const { return metric_; }
 
   size_t steps() const { return steps_; }
-  float lastStep() const { return lastStep_; }  // in the metric of metric() [m]
+  float lastStep() const { return lastStep_; }  // measured by metric() [m]
 
   // The mark up to which a result is valid that holds while the distance is less than `slack` [m].
   Mark markAfter(float slack) const {

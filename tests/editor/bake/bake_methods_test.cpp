@@ -1,4 +1,4 @@
-// What methods of baking make of their parameters.
+// The conversion of parameters of methods to options of baking.
 #include "editor/bake/bake_methods.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +18,9 @@ TEST(BakeMethods, TakeTheBouncesAndTheSeedOfTheirMethods) {
     EXPECT_EQ(light.paths.bounces, 3) << method.name;
     EXPECT_EQ(light.paths.seed, 7u) << method.name;
   }
+  EXPECT_EQ(bakeLightOptions("reference", {}).method, BakeMethod::reference);
+  EXPECT_EQ(bakeLightOptions("multi_mesh", {}).method, BakeMethod::meshes);
+  EXPECT_EQ(bakeLightOptions("surface_shadow_maps", {}).method, BakeMethod::links);
 }
 
 TEST(BakeMethods, DefaultsForBakingGiveWayToWhatIsSet) {

@@ -7,8 +7,8 @@
 #include "editor/debug_views/look.h"
 #include "editor/debug_views/vpl_overlay.h"
 #include "renderer/base/error.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

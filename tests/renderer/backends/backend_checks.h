@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/gbuffer_view.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {

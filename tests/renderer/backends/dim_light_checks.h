@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {

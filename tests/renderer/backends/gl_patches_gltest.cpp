@@ -8,9 +8,9 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 #include "tests/support/scenes/scene_files.h"
 #include "tests/support/scenes/scenes.h"
 

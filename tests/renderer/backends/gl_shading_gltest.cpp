@@ -5,11 +5,11 @@
 #include "renderer/gl/radiance_texture.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/scenes/gltf_files.h"
 #include "tests/support/images.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes/gltf_files.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 #include "tests/support/scenes/scenes.h"
 #include "tests/support/scenes/skies.h"
 

@@ -3,9 +3,9 @@
 #include "renderer/backends/gl/gl_scene.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/edit_sequence.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -5,8 +5,8 @@
 
 #include "shaders/shared/octahedral.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -3,8 +3,8 @@
 
 #include "renderer/debug_views/view_colours.h"
 #include "renderer/debug_views/view_picture.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

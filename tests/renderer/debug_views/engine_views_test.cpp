@@ -9,8 +9,8 @@
 #include "renderer/debug_views/view_colours.h"
 #include "renderer/debug_views/view_picture.h"
 #include "renderer/frame/frame.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -3,8 +3,8 @@
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

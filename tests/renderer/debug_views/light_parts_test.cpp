@@ -54,7 +54,7 @@ class LightParts : public testing::TestWithParam<Case> {
     settings_.set("map_resolution", 32);
     settings_.set("antialias", 2);
     settings_.set("samples_per_pixel", 8);
-    // Corner light uses random rays that differ between the parts.
+    // Bias compensation uses random rays that differ between the parts.
     settings_.set("bias_compensation", false);
     settings_.set("share_memory", 0);  // jitters of a part share other pixels than those of all
     settings_.set("block", std::string("1"));

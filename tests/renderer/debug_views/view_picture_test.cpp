@@ -10,8 +10,8 @@
 #include "renderer/debug_views/view_colours.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/tone_map.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -10,8 +10,8 @@
 #include "renderer/imperfect_maps/occluder_points.h"
 #include "renderer/imperfect_maps/rest_maps.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

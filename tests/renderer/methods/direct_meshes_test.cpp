@@ -6,8 +6,8 @@
 
 #include "renderer/image/average_blocks.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -4,8 +4,8 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -6,8 +6,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {

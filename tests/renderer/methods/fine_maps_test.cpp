@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/frame/frame.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {

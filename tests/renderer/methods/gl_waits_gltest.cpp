@@ -7,8 +7,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/registry/registry.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -6,8 +6,8 @@
 
 #include "renderer/methods/mesh_senders.h"
 #include "renderer/scene/surface.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/registry/registry.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scene_files.h"
 
 namespace lamplighter {

@@ -4,9 +4,9 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -5,9 +5,9 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

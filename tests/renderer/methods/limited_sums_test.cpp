@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/image/metrics.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 
 namespace lamplighter {
 namespace {

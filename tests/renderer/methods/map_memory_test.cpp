@@ -8,8 +8,8 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scene_files.h"
 #include "tests/support/scenes/scenes.h"
 
@@ -120,7 +120,8 @@ TEST(MapMemory, ReplacingMapsCausesNoFlash) {
   FrameRenderer renderer(makeCpuBackend());
   // The lamp of the room in view has most of the samples, and memory must hold all their maps.
   Settings settings = settingsOf("light_maps", 210, 3);
-  // Only maps change, neither the choice of light samples nor corner light of the settled picture.
+  // Only maps change, neither the choice of light samples nor bias compensation of the settled
+  // picture.
   settings.set("importance", 1);
   settings.set("bias_compensation", false);
   int framesWithProxies = 0;

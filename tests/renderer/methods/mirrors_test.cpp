@@ -1,8 +1,8 @@
 // Glossy reflections: shown in the second frame at rest, also without antialiasing.
 #include <gtest/gtest.h>
 
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
@@ -81,7 +81,7 @@ TEST_P(Mirrors, AreThereInTheSecondFrameAtRest) {
       settled, test::freshPicture(makeCpuBackend(), room_.scene, room_.view, settings(4))));
 }
 
-// In a picture that is so large that its pixels are found over several frames.
+// The picture is so large that its pixels take several frames.
 TEST_P(Mirrors, FollowTheBrightnessOfALamp) {
   room_.view.width = 480;
   room_.view.height = 360;

@@ -3,8 +3,8 @@
 
 #include "renderer/image/metrics.h"
 #include "renderer/methods/path_tracer/path_tracer.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

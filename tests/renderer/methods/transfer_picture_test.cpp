@@ -10,8 +10,8 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {
@@ -59,7 +59,7 @@ Settings settingsOf(bool prt, int bounces, float error = 1.0f) {
   s.set("prt_error", error);
   s.set("prt_bounces", 4);
   s.set("block", std::string("1"));
-  // Corner light depends on the whole picture, including objects with transfer.
+  // Bias compensation depends on the whole picture, including objects with transfer.
   s.set("bias_compensation", false);
   s.set("importance", 1);  // importance does not choose other light samples
   s.set("vpls", 1000);

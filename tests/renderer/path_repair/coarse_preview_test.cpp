@@ -1,9 +1,13 @@
 // A first repair by paths of blocks of pixels.
 #include "renderer/path_repair/coarse_preview.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "renderer/base/random.h"
+#include "tests/renderer/path_repair/wall_and_floor.h"
 
 namespace lamplighter {
 namespace {
@@ -11,27 +15,16 @@ namespace {
 // Not multiples of the side of a block.
 constexpr int kWidth = 130, kHeight = 95, kSide = 3;
 
-// A wall and a floor that meet in a middle row, with checks of another albedo; in the first columns
-// the sky.
-RepairGuides wallAndFloor() {
-  RepairGuides guides;
-  guides.width = kWidth;
-  guides.height = kHeight;
+// In the first columns the sky.
+RepairGuides wallAndFloorAtTheSky() {
+  RepairGuides guides = test::wallAndFloor(kWidth, kHeight, 9);
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const int up = kHeight / 2 - y;
-      guides.position.emplace_back(0.01f * static_cast<float>(x),
-                                   0.01f * static_cast<float>(std::max(up, 0)),
-                                   0.01f * static_cast<float>(std::max(-up, 0)));
-      guides.normal.push_back(x < 4 ? vec3(0.0f) : up > 0 ? vec3(0, 0, 1) : vec3(0, 1, 0));
-      guides.albedo.emplace_back((x / 9 + y / 9) % 2 == 0 ? 0.8f : 0.2f);
-      guides.footprint.push_back(0.01f);
-    }
+    for (int x = 0; x < 4; ++x) guides.normal[static_cast<size_t>(y * kWidth + x)] = vec3(0.0f);
   return guides;
 }
 
 struct Coarse : testing::Test {
-  const RepairGuides guides = wallAndFloor();
+  const RepairGuides guides = wallAndFloorAtTheSky();
   Image truth{kWidth, kHeight}, live{kWidth, kHeight};
   CoarsePreview preview{guides, kSide};
 
@@ -83,8 +76,7 @@ struct Coarse : testing::Test {
 };
 
 TEST_F(Coarse, ShowsWhatIsMissingWithTheDetailOfThePicture) {
-  EXPECT_GT(errorOf(live), 0.5);
-  EXPECT_LT(errorOf(repaired(kSide * kSide, 1)), 0.1);
+  EXPECT_LT(errorOf(repaired(kSide * kSide, 1)), 0.15 * errorOf(live));
 }
 
 TEST_F(Coarse, FewNoisyPathsAreEnough) {
@@ -93,7 +85,7 @@ TEST_F(Coarse, FewNoisyPathsAreEnough) {
   EXPECT_LT(error, 0.7 * errorOf(live));
 }
 
-TEST_F(Coarse, ThePictureBesideTheSkyStaysAsItIs) {
+TEST_F(Coarse, TheSkyStaysAsItIs) {
   const Image& picture = repaired(1, 1);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < 4; ++x) EXPECT_EQ(picture.at(x, y), live.at(x, y));
@@ -116,7 +108,7 @@ TEST_F(Coarse, PixelsBesideBlocksWithoutASurfaceAreRepaired) {
 
 // A rail that no block shows is scaled as what is around it.
 TEST(CoarsePreviewTest, PixelsThatNoBlockShowsAreScaled) {
-  RepairGuides guides = wallAndFloor();
+  RepairGuides guides = wallAndFloorAtTheSky();
   constexpr int kRow = 18;  // not in the middle of a block
   for (int x = 4; x < kWidth; ++x) {
     guides.normal[kRow * kWidth + x] = vec3(0, 0, -1);

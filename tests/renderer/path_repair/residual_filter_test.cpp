@@ -4,30 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/random.h"
+#include "tests/renderer/path_repair/wall_and_floor.h"
 #include "tests/support/scenes/lit_scene.h"
 
 namespace lamplighter {
 namespace {
 
 constexpr int kWidth = 128, kHeight = 96;
-
-// A wall and a floor that meet in the middle row, with a checked albedo.
-RepairGuides wallAndFloor() {
-  RepairGuides guides;
-  guides.width = kWidth;
-  guides.height = kHeight;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const int up = kHeight / 2 - y;
-      guides.position.emplace_back(0.01f * static_cast<float>(x),
-                                   0.01f * static_cast<float>(std::max(up, 0)),
-                                   0.01f * static_cast<float>(std::max(-up, 0)));
-      guides.normal.push_back(up > 0 ? vec3(0, 0, 1) : vec3(0, 1, 0));
-      guides.albedo.emplace_back((x / 8 + y / 8) % 2 == 0 ? 0.8f : 0.2f);
-      guides.footprint.push_back(0.01f);
-    }
-  return guides;
-}
 
 // Each pixel shows another surface than its neighbours.
 RepairGuides leavesLike(const RepairGuides& guides) {
@@ -48,7 +31,7 @@ float lightAt(int x, int y) {
 }
 
 struct Residuals : testing::Test {
-  const RepairGuides guides = wallAndFloor();
+  const RepairGuides guides = test::wallAndFloor(kWidth, kHeight, 8);
   Image truth{kWidth, kHeight}, live{kWidth, kHeight};
   PathSums sums;
   int rows = kHeight;  // of the filter in each call

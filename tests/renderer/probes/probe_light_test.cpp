@@ -8,8 +8,8 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes/scenes.h"
-#include "tests/support/shared_files.h"
 #include "tests/support/scenes/skies.h"
+#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/methods/path_tracer/path_tracer.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -10,8 +10,8 @@
 #include "renderer/image/image_io.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/scenes/gltf_files.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/gltf_files.h"
 #include "tests/support/scenes/scene_equality.h"
 #include "tests/support/scenes/scenes.h"
 

@@ -4,9 +4,9 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/images.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/random_boxes.h"
-#include "tests/support/render.h"
 #include "tests/support/scenes/scenes.h"
 #include "tests/support/shared_files.h"
 

@@ -5,8 +5,8 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/methods/pixel_jitter.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -8,8 +8,8 @@
 
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/scenes/random_boxes.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/random_boxes.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

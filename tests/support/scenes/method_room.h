@@ -5,8 +5,8 @@
 #include <string>
 
 #include "renderer/image/metrics.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {

@@ -2,8 +2,8 @@
 // the clamp distance.
 #pragma once
 
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter::test {

@@ -129,7 +129,7 @@ void brighten(Scene& scene, bool isDone) {
   if (scene.sky.kind == SkyKind::image) scene.sky.scale *= factor;
 }
 
-// The stages of the first frame after an edit that take longest, means of some edits.
+// Stages of the first frame after an edit that take 5 ms or more, means over the edits.
 class FirstFrames {
  public:
   void take(const GiStats& stats) {

@@ -56,7 +56,7 @@ bool strengthField(const PanelContext& ui, const std::string& step, const LightM
       "Luminous flux of the whole lamp, in lumens. A bulb gives 600 to 1200 lm.",
       "Luminous intensity in the brightest direction, in candela.",
       "Brightness of the surface, in nits (cd/m\u00b2).",
-      "Luminous flux of the whole lamp in watts, at 683 lm/W: a tenth or less of its electrical "
+      "Radiant power of the whole lamp in watts, with 683 lm/W: a tenth or less of its electrical "
       "power.",
       "Illuminance of a surface that faces the light, in lux; the sun gives 100,000 lx."};
   labelledRow(ui, kLabels[static_cast<size_t>(unit)], kHelp[static_cast<size_t>(unit)]);

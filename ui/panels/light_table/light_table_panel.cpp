@@ -32,7 +32,7 @@ constexpr std::array kColumns = {
                "Temperature of the black body with the nearest colour."},
     ColumnInfo{
         LightColumn::strength, "strength", "Intensity", 66, true,
-        "In the unit chosen above, or in another unit if that is not defined for the light."},
+        "In the unit chosen above, or in the light's own unit if it cannot be given in that one."},
     ColumnInfo{LightColumn::size, "size", "Size", 78, true, "In metres, before the scale."},
     ColumnInfo{LightColumn::group, "group", "Group", 60, false, ""},
     ColumnInfo{LightColumn::share, "share", "Share", 40, true,
@@ -42,8 +42,8 @@ constexpr std::array kColumns = {
     ColumnInfo{LightColumn::patches, "patches", "Patches", 52, true,
                "Patches of surface that at least one of its samples may reach."},
     ColumnInfo{LightColumn::milliseconds, "milliseconds", "ms", 44, true,
-               "Estimated share of this light in the time of a frame while the picture changes, by "
-               "its samples and the patches that they reach."},
+               "Estimated part of the frame time that this light costs while the picture changes, "
+               "by its samples and the patches that they reach."},
     ColumnInfo{LightColumn::pending, "pending", "Pending", 52, true,
                "Samples that wait for an update of their shadow map."},
     ColumnInfo{LightColumn::age, "age", "Age", 28, true,

@@ -12,7 +12,7 @@ namespace lamplighter::cpu {
 
 // E of each pixel in fixed-point units; structure of arrays over the whole G-buffer.
 struct FixedSums {
-  // Fraction of a unit. The sum of the rounding errors of 2¹⁷ lights fits into 32 bits.
+  // Fine steps per unit. The sum of the rounding errors of 2¹⁷ lights fits into 32 bits.
   static constexpr float kFinePerUnit = 0x1p14f;
 
   std::vector<int32_t> r, g, b;

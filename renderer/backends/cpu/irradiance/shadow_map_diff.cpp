@@ -11,7 +11,7 @@
 namespace lamplighter::cpu {
 namespace {
 
-constexpr size_t kWide = 8;
+constexpr size_t kBatch = 8;
 
 // Distance from a texel's centre to its corners, times the resolution. On the octahedron a corner
 // is up to √2/resolution away, where |x| + |y| + z = 1, and no point of it is nearer to the light
@@ -24,8 +24,8 @@ constexpr float kMostOfMap = 0.5f, kMostAngle = 1.4f;
 // Indices of the texels that differ.
 std::vector<uint32_t> changedTexels(std::span<const float> before, std::span<const float> now) {
   std::vector<uint32_t> changed;
-  const size_t whole = now.size() / kWide * kWide;
-  for (size_t i = 0; i < whole; i += kWide) {
+  const size_t whole = now.size() / kBatch * kBatch;
+  for (size_t i = 0; i < whole; i += kBatch) {
     const auto differ = hn::Ne(hn::LoadU(kTag, &before[i]), hn::LoadU(kTag, &now[i]));
     for (uint32_t rest = bitsOf(differ); rest != 0; rest &= rest - 1)
       changed.push_back(static_cast<uint32_t>(i) + static_cast<uint32_t>(std::countr_zero(rest)));
@@ -68,7 +68,7 @@ ShadowMapDiff diffShadowMaps(std::span<const float> before, std::span<const floa
 
 void PlaceSpheres::resize(size_t count) {
   count_ = count;
-  for (auto* v : {&x_, &y_, &z_, &radius_}) v->resize((count + kWide - 1) / kWide * kWide, 0.0f);
+  for (auto* v : {&x_, &y_, &z_, &radius_}) v->resize((count + kBatch - 1) / kBatch * kBatch, 0.0f);
 }
 
 void PlaceSpheres::set(size_t i, const vec3& centre, float radius) {
@@ -90,7 +90,7 @@ void PlaceSpheres::findReached(const LightRecord& light, const ShadowMapDiff& ch
                           bitangent = broadcast(light.bitangent);
   const Floats8 one = broadcast(1.0f), perSide = broadcast(1.0f / light.side);
   const float cosine = std::cos(change.reach), sine = std::sin(change.reach);
-  for (size_t i = 0; i < x_.size(); i += kWide) {
+  for (size_t i = 0; i < x_.size(); i += kBatch) {
     const auto load = [&](const std::vector<float>& v) { return hn::LoadU(kTag, &v[i]); };
     const auto way = SimdVec3<Floats8>{load(x_), load(y_), load(z_)} - position;
     const Floats8 radius = hn::MulAdd(load(radius_), broadcast(1.001f), broadcast(1e-4f));
@@ -115,7 +115,7 @@ void PlaceSpheres::findReached(const LightRecord& light, const ShadowMapDiff& ch
       meets = hn::Or(isSeen, hn::Not(hn::Lt(sineB2, one)));
     }
     const uint32_t bits = bitsOf(meets);
-    for (size_t lane = 0; lane < kWide; ++lane)
+    for (size_t lane = 0; lane < kBatch; ++lane)
       isReached[i + lane] = static_cast<uint8_t>(bits >> lane & 1);
   }
 }

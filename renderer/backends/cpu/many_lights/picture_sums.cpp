@@ -20,15 +20,15 @@ SumCounts update(IrradianceAccumulator& sums, const GBuffer& points, const Pictu
 
 }  // namespace
 
-SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick, uint64_t mostAtEdges,
+SumCounts PictureSums::sum(const Input& in, int side, bool isQuick, uint64_t mostAtEdges,
                            const SeenPoints* before) {
   // Where all edges can be summed there is nothing to take over.
-  if (before != nullptr && (pixelsPerBlock == 1 || !low.isLong())) {
+  if (before != nullptr && (side == 1 || !low.isLong())) {
     before = nullptr;
     forgetCarried();
   }
   if (before != nullptr) takeCarried(before->px.size() / kTilePixels);
-  block = pixelsPerBlock;
+  block = side;
   if (block == 1) return update(sums, in.gbuffer, in, {});
   SumCounts counts;
   low.update(in.gbuffer, block, in.leftOutBy);

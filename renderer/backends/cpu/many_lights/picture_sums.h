@@ -40,13 +40,13 @@ struct PictureSums {
   SpecularAccumulator speculars;
   SpecularSamples sampledSpeculars;  // quick pictures: in place of `speculars`
 
-  // Sums the diffuse light in blocks of `pixelsPerBlock` pixels. isQuick: some samples are
+  // Sums the diffuse light in blocks of `side` × `side` pixels. isQuick: some samples are
   // interpolated. mostAtEdges: limits lights × pixels of the pixels that are not interpolated.
   // `before`: the points of the picture of the last sum, if only the view has changed since; pixels
   // that are left to later calls use its light. Null: there is no such picture, or the view is the
   // same.
-  SumCounts sum(const Input& in, int pixelsPerBlock, bool isQuick,
-                uint64_t mostAtEdges = UINT64_MAX, const SeenPoints* before = nullptr);
+  SumCounts sum(const Input& in, int side, bool isQuick, uint64_t mostAtEdges = UINT64_MAX,
+                const SeenPoints* before = nullptr);
   // Whether the last sum left some of these pixels to later calls.
   bool isLimited() const { return block != 1 && low.isLimited(); }
   // Glossy pixels of the last speculars.

@@ -33,8 +33,8 @@ struct EndedPaths : testing::Test, test::SmallRoom {
   }
   EndedPath ended(const EvenLight& light, int x, int y, uint32_t sample, bool isWhole,
                   uint64_t* traced = nullptr) const {
-    return traceEndedPath(lit.render, *lit.rays, lights, view, x, y, sample, options, light, isWhole,
-                          traced);
+    return traceEndedPath(lit.render, *lit.rays, lights, view, x, y, sample, options, light,
+                          isWhole, traced);
   }
 };
 

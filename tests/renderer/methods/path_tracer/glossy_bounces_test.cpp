@@ -9,8 +9,8 @@
 
 #include "renderer/methods/path_tracer/path_tracer.h"
 #include "shaders/shared/brdf.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -5,8 +5,8 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scenes.h"
 
 namespace lamplighter {

@@ -8,8 +8,8 @@
 #include "renderer/base/random.h"
 #include "renderer/sampling/choice/unshadowed_importance.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scenes/lit_scene.h"
 #include "tests/support/scenes/scene_files.h"
 #include "tests/support/scenes/scenes.h"
 
